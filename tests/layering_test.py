@@ -21,10 +21,8 @@ ORDER = {
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "server/gateway": ["net", "protocol", "call", "http1", "http2", "."],
-    "client/cli": ["base", "input", "settings", "link", "text", "export", "figures", "paper",
-                   "translate", "help", "verbs", "."],
+    "client/cli": ["base", "input", "settings", "link", "text", "export", "translate", "help", "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],
-    "client/cli/figures": ["form", ".", "run", "heat_map"],
     "client/cli/help": ["contract", "."],
     "client/cli/verbs": ["identity", "job", "laws", "sweep", "."],
 }

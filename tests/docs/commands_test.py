@@ -25,7 +25,7 @@ from contactd import BINARY, PATIENCE_S, Server, ServerTest, cluster, three_ball
 
 matplotlib.use("agg")
 ROOT = pathlib.Path(__file__).parents[2]
-TOOLS = ("jq", "gnuplot", "curl")  # A command that needs one that is not here is left out.
+TOOLS = ("jq", "curl")  # A command that needs one that is not here is left out.
 JOB = re.compile(r"jobs/([0-9a-z]{10})\b")
 
 # What is not run here, since it installs, builds or never ends: how it begins, and what runs it.

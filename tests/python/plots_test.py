@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from contactd import ServerTest, two_balls_and_a_wall
 from contactsim import Client
-from contactsim.plotting import PRESETS
+from contactsim.figures import PRESETS, FigureError
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 UNDAMPED = "glass-balls", "iterations"  # Its μ is 0 without a search.
@@ -27,12 +27,14 @@ class PlotsTest(ServerTest):
             result = self.client.run(path)
             for preset in PRESETS:
                 with self.subTest(f"{path.stem} {preset}"):
+                    if (path.stem, preset) == UNDAMPED:
+                        self.assertRaises(FigureError, result.plot, preset)
+                        continue
                     axes = np.ravel(result.plot(preset))
                     axes[0].figure.savefig(self.folder / "plot.svg")
                     for ax in axes:
                         self.assertTrue(ax.get_ylabel())
-                        drawn = (path.stem, preset) != UNDAMPED
-                        self.assertEqual(bool(ax.lines), drawn)
+                        self.assertTrue(ax.lines)
                     plt.close("all")
 
     def test_loop_of_the_hysteresis_has_the_area_of_the_energy_lost(self):
@@ -63,9 +65,10 @@ class PlotsTest(ServerTest):
                   if (c.contact, c.group) == (group.contact, group.number)]
         self.assertEqual((group.start_time_s, group.end_time_s),
                          (cycles[0].start_time_s, cycles[1].end_time_s))
-        alone = sum(not c.group for c in result.job.cycles)
-        bands = result.plot.force().patches
-        self.assertEqual(len(bands), len(result.job.groups) + alone)
+        bands = result.plot.force().collections[0].get_paths()
+        spans = [path.get_extents().intervalx for path in bands]
+        self.assertTrue(any(start <= group.start_time_s and group.end_time_s <= end
+                            for start, end in spans), spans)
 
     def test_marks_stand_where_cycles_start_and_end(self):
         ax = self.chain.plot.deformation_velocity()

@@ -11,8 +11,6 @@ namespace {
 
 using Escape = std::pair<std::string_view, std::string_view>;
 
-constexpr Escape kHtml[] = {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}};
-
 constexpr Escape kLatex[] = {
     {"&", "\\&"},
     {"%", "\\%"},
@@ -58,8 +56,6 @@ std::string Escaped(std::string_view text, std::span<const Escape> escapes) {
 }
 
 }  // namespace
-
-std::string HtmlText(std::string_view text) { return Escaped(text, kHtml); }
 
 std::string LatexText(std::string_view text) { return Escaped(text, kLatex); }
 

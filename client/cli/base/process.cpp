@@ -49,6 +49,7 @@ std::size_t Read(int fd, char* data, std::size_t size) {
     if (getppid() != parent) _exit(1);
   }
   if (options.own_group) setpgid(0, 0);
+  if (options.input >= 0) dup2(options.input, STDIN_FILENO);
   if (options.output >= 0) dup2(options.output, STDOUT_FILENO);
   if (options.errors >= 0) dup2(options.errors, STDERR_FILENO);
   if (options.silent_errors) dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
@@ -61,12 +62,23 @@ std::size_t Read(int fd, char* data, std::size_t size) {
   _exit(127);
 }
 
-}  // namespace
-
-pid_t StartProcess(const std::vector<std::string>& command, const ProcessOptions& options) {
+// Ends with a null, as exec wants it.
+std::vector<char*> PointersTo(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  return arguments;
+}
+
+}  // namespace
+
+void BecomeProcess(const std::vector<std::string>& command) {
+  execvp(command.front().c_str(), PointersTo(command).data());
+  throw std::system_error(errno, std::generic_category(), command.front());
+}
+
+pid_t StartProcess(const std::vector<std::string>& command, const ProcessOptions& options) {
+  const std::vector<char*> arguments = PointersTo(command);
   Pipe failure = MakePipe();  // Closed by a successful exec, without data.
   const pid_t parent = getpid();
   const pid_t process = fork();

@@ -16,7 +16,9 @@ struct ProcessOptions {
   bool own_group = false;
   /// Its standard error is /dev/null.
   bool silent_errors = false;
-  /// The descriptor that becomes its standard output; -1: it has ours.
+  /// The descriptor that becomes its standard input; -1: it has ours.
+  int input = -1;
+  /// The same for its standard output.
   int output = -1;
   /// The same for its standard error.
   int errors = -1;
@@ -26,6 +28,9 @@ struct ProcessOptions {
 /// or a name to look for in the PATH, and its arguments. The caller waits for its end. Throws
 /// std::system_error with the reason, such as ENOENT, if it cannot be run.
 pid_t StartProcess(const std::vector<std::string>& command, const ProcessOptions& options = {});
+
+/// Becomes a program, in place of this one. Throws as StartProcess.
+[[noreturn]] void BecomeProcess(const std::vector<std::string>& command);
 
 /// Waits for the end of a process. Returns its exit code, or 128 + the signal that ended it.
 int WaitForProcess(pid_t process);

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <set>
-
 #include "base/spelling.h"
 #include "cli/input/no_limits.h"
 #include "cli/text/render_json.h"
@@ -18,12 +14,6 @@ std::string Line(const google::protobuf::Message& message) {
   std::string line = ToJsonLine(message);
   line.pop_back();
   return line;
-}
-
-std::string_view Value(const Provenance& provenance, std::string_view name) {
-  const auto found =
-      std::ranges::find(provenance, name, [](const auto& entry) { return entry.first; });
-  return found == provenance.end() ? std::string_view() : found->second;
 }
 
 }  // namespace
@@ -70,26 +60,6 @@ Provenance SourceOf(const v1::Job& job) {
           {"scenario_sha256", job.spec_sha256()},
           {"version", job.server_version()},
           {"revision", job.server_revision()}};
-}
-
-std::string Caption(const std::vector<Provenance>& sources) {
-  constexpr std::size_t kMostJobs = 3;
-  constexpr std::size_t kShownDigits = 12;
-  std::vector<std::string> parts;
-  std::set<std::string> servers;
-  for (const Provenance& source : sources) {
-    servers.insert(fmt::format("contactd {} {}", Value(source, "version"),
-                               Value(source, "revision").substr(0, kShownDigits)));
-    const std::string_view digest = Value(source, "scenario_sha256").substr(0, kShownDigits);
-    if (digest.empty() || parts.size() > kMostJobs) continue;
-    const std::string_view job = Value(source, "job");
-    parts.push_back(fmt::format("{} ({})", job.empty() ? "scenario" : job, digest));
-  }
-  if (parts.size() > kMostJobs) {
-    parts.back() = fmt::format("{} more", sources.size() - kMostJobs);
-  }
-  parts.insert(parts.end(), servers.begin(), servers.end());
-  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix) {

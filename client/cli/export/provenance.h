@@ -19,10 +19,6 @@ Provenance ProvenanceOf(const v1::Job& job);
 /// The part of ProvenanceOf that fits into a figure: title, job, SHA-256, version, revision.
 Provenance SourceOf(const v1::Job& job);
 
-/// The sources of a figure in one line: `jobs/ID (1a2b3c4d5e6f), contactd 0.1.0 REVISION`, in
-/// parentheses how the SHA-256 begins. Empty for none.
-std::string Caption(const std::vector<Provenance>& sources);
-
 /// The entries of all sources, each as a line `name: value` after `prefix`. An empty line stands
 /// between two sources.
 std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix);

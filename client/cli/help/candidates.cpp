@@ -18,7 +18,6 @@
 #include "cli/link/credentials.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
-#include "cli/paper/items.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/render_job.h"
@@ -133,9 +132,9 @@ Candidates EventKinds(const Settings&, const TypedWords&) {
 }
 
 Candidates Items(const Settings&, const TypedWords&) {
-  Candidates items = Named(PaperItems());
-  items.insert(items.begin(), {"all", ""});
-  return items;
+  std::vector<std::string> items = {"all"};
+  items.insert(items.end(), PaperItems().begin(), PaperItems().end());
+  return Named(items);
 }
 
 const CLI::App& RootOf(const TypedWords& typed) {
@@ -183,6 +182,13 @@ Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& PaperItems() {
+  static const std::vector<std::string> items = {"fig3",  "fig4",  "fig5",  "exponent", "fig9",
+                                                 "fig10", "fig11", "fig12", "table2",   "table3",
+                                                 "fig14", "fig15", "fig16", "fig17",    "table4"};
+  return items;
+}
 
 std::vector<std::string_view> JobStates() {
   std::vector<std::string_view> states;

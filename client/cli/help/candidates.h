@@ -30,6 +30,9 @@ struct TypedWords {
 /// The names of the states that a job can have, in the order of the contract.
 std::vector<std::string_view> JobStates();
 
+/// The figures and tables of the paper that contactsim can make again.
+const std::vector<std::string>& PaperItems();
+
 /// The values that `option` may have after these words, by its kind. Asks the server for those of
 /// a job. Empty if they cannot be told.
 Candidates Values(const CommandLine& line, const CLI::Option& option, const TypedWords& typed);

@@ -125,6 +125,19 @@ const std::vector<std::string>& CommandLine::WordsOf(const CLI::Option& option) 
   return found == values_.end() ? kNone : found->second.words;
 }
 
+std::vector<std::string> GivenFlags(const CLI::App& command,
+                                    const std::vector<std::string>& names) {
+  std::vector<std::string> words;
+  for (const std::string& name : names) {
+    const CLI::Option* option = command.get_option(name);
+    const bool flag = option->get_items_expected_max() == 0;
+    if (flag && option->count() > 0) words.push_back(name);
+    if (flag) continue;
+    for (const std::string& value : option->results()) words.push_back(name + "=" + value);
+  }
+  return words;
+}
+
 bool IsList(const CLI::Option& option) { return option.get_delimiter() == ','; }
 
 namespace {
@@ -189,8 +202,8 @@ void AddFigureFile(CommandLine& line, CLI::App& command, std::string* path,
       [&line, &command](const std::string& value) { TakeFigureOutput(line, command, value); });
   line.SuggestWords(output, FormatNames(kFigure))->group("");
   line.SetKind(command.add_option("-f,--file", *path,
-                                  about + ". The ending tells the format, .tex being tikz, unless "
-                                          "-o names one; -o with such a file is the same as -f"),
+                                  about + ". The ending tells the format unless -o names one; -o "
+                                          "with such a file is the same as -f"),
                ValueKind::kFile);
 }
 

@@ -101,6 +101,10 @@ class CommandLine {
   std::map<const CLI::Option*, Values> values_;
 };
 
+/// Those of these flags of a command that the parsed line has, as words of a command line such as
+/// `--from=0.1`.
+std::vector<std::string> GivenFlags(const CLI::App& command, const std::vector<std::string>& names);
+
 /// True if an option takes several values with commas between.
 bool IsList(const CLI::Option& option);
 

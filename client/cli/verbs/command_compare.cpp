@@ -5,8 +5,6 @@
 #include <memory>
 
 #include "cli/base/message.h"
-#include "cli/figures/draw.h"
-#include "cli/figures/overlay.h"
 #include "cli/input/measured.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
@@ -14,6 +12,8 @@
 #include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
+#include "cli/verbs/job/contactsim.h"
+#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/measured_comparison.h"
 #include "cli/verbs/verbs.h"
@@ -41,15 +41,17 @@ Settings WithFormat(const CompareArguments& arguments, Settings settings) {
 }
 
 void DrawRuns(const CompareArguments& arguments, const Settings& settings) {
+  std::vector<std::string> words = {"overlay", "--file=" + arguments.plot};
+  for (const std::string& channel : arguments.channels) words.push_back("--channels=" + channel);
+  words.emplace_back("--");
   Client client = Connect(settings);
-  std::vector<Recording> runs;
   for (const std::string& job : arguments.jobs) {
     if (std::filesystem::is_regular_file(job)) {
       throw Failure(ExitCode::kUsage, fmt::format("--plot: {} is a file without trajectory", job));
     }
-    runs.push_back(ReadRecording(client, FindJob(client, job), settings));
+    words.push_back(FindJob(client, job));
   }
-  Draw(OverlayFigure(runs, arguments.channels), FormatOfFigure(arguments.plot), arguments.plot);
+  RunContactsim(words, settings);
   Tell("{}\n", arguments.plot);
 }
 
@@ -147,7 +149,7 @@ void AddCompare(CommandLine& line, CLI::App& command) {
             {"table", "json", "yaml", "csv", "latex"}, "The same as -o")
       ->type_name("FORMAT");
   AddOption(line, command, "--plot", &arguments->plot, ValueKind::kFile,
-            "Draw the runs over each other to this file too: .svg, .png, .pdf, .txt, .tex, .gp or "
+            "Draw the runs over each other to this file too: .svg, .png, .pdf, .eps, .pgf, .txt or "
             ".csv");
   AddListOption(line, command, "--channels", &arguments->channels, ValueKind::kChannel,
                 "What --plot draws, such as B1.velocity. Default: the contact forces");

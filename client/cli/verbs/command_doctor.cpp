@@ -15,6 +15,7 @@
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
+#include "cli/verbs/job/contactsim.h"
 #include "cli/verbs/verbs.h"
 #include "version.h"
 
@@ -81,13 +82,11 @@ void LookAtServer(const Settings& settings, Findings* findings) {
   }
 }
 
-Finding LookAtGnuplot() {
-  std::string version = OutputOf({"gnuplot", "--version"}, {.silent_errors = true}).value_or("");
-  version.erase(version.find_last_not_of('\n') + 1);
-  const bool good = version.starts_with("gnuplot 5");
-  if (!good)
-    version = version.empty() ? "not found, so plot draws nothing" : version + ", made for 5";
-  return {"gnuplot", version, good ? "" : "apt-get install gnuplot-nox", ExitCode::kLocal};
+Finding LookAtFigures() {
+  const std::string version = ContactsimVersion();
+  return {"figures", version.empty() ? "no contactsim, so plot draws nothing" : version,
+          version.empty() ? "apt-get install python3-contactsim python3-matplotlib" : "",
+          ExitCode::kLocal};
 }
 
 Finding LookAtTerminal(const Settings& settings) {
@@ -148,7 +147,7 @@ ExitCode Doctor(const CLI::App& app, const Settings& settings) {
   Findings findings;
   LookAtConfig(app, settings, &findings);
   LookAtServer(settings, &findings);
-  findings.push_back(LookAtGnuplot());
+  findings.push_back(LookAtFigures());
   findings.push_back(LookAtTerminal(settings));
   if (settings.output == OutputFormat::kJson) {
     PrintJson(Json(findings), settings);

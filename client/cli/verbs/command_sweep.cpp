@@ -8,7 +8,6 @@
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
 #include "cli/export/provenance.h"
-#include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
 #include "cli/link/connect.h"
@@ -22,6 +21,7 @@
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/job/submission.h"
 #include "cli/verbs/sweep/cell_watcher.h"
+#include "cli/verbs/sweep/heat_map_options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -88,7 +88,7 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
                      : Detach(end, name);
   }
   Print(job, cells, arguments, settings);
-  if (!arguments.heat_map.empty()) arguments.map.Draw(job, cells, arguments.heat_map);
+  if (!arguments.heat_map.empty()) arguments.map.Draw(job, arguments.heat_map, settings);
   return CodeOf(job);
 }
 
@@ -138,8 +138,8 @@ void AddShowing(CommandLine& line, CLI::App& command,
                 ExitCode (*act)(const SweepArguments&, const Settings&)) {
   arguments->map.AddTo(line, command);
   AddOption(line, command, "--heatmap,--plot", &arguments->heat_map, ValueKind::kFile,
-            "Draw the heat map, or of one axis a line, to this file too, through gnuplot: .svg, "
-            ".png, .pdf or .tex");
+            "Draw the heat map, or of one axis a line, to this file too: .svg, .png, .pdf, .eps or "
+            ".pgf");
   arguments->columns.AddTo(line, command);
   command.add_flag("--comments", arguments->comments, kCommentsAbout);
   line.SetAction(command, arguments, act);

@@ -1,18 +1,20 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "cli/base/message.h"
-#include "cli/figures/draw.h"
-#include "cli/figures/heat_map/heat_map_options.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
+#include "cli/verbs/job/contactsim.h"
+#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/follow.h"
 #include "cli/verbs/sweep/cell_watcher.h"
+#include "cli/verbs/sweep/heat_map_options.h"
 #include "cli/verbs/sweep/sweep_cell.h"
 #include "cli/verbs/verbs.h"
 
@@ -64,22 +66,25 @@ ExitCode Cell(const CellArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+// The line of a sweep over one axis, in characters.
+[[noreturn]] void PrintLine(const HeatMapOptions& map, const v1::Job& job, Settings settings) {
+  settings.SetOutput(NameOf(OutputFormat::kText));
+  std::vector<std::string> words = map.Words(job.name());
+  for (std::string& word : FigureWords("", "line", settings)) words.push_back(std::move(word));
+  BecomeContactsim(words, settings);
+}
+
 ExitCode DrawMap(const HeatMapArguments& arguments, const Settings& settings) {
   Client client = Connect(settings);
   const v1::Job job = GetSweep(client, FindJob(client, arguments.job));
   arguments.map.MetricOf(job.sweep());
   if (!arguments.file.empty()) arguments.map.RequireDrawable(job.sweep(), arguments.file);
-  const SweepCells cells = ReadCells(client, job, settings);
   if (!arguments.file.empty()) {
-    arguments.map.Draw(job, cells, arguments.file);
+    arguments.map.Draw(job, arguments.file, settings);
     return ExitCode::kOk;
   }
-  if (job.sweep().axes_size() == 1) {
-    Settings characters = settings;
-    characters.SetOutput(NameOf(OutputFormat::kText));
-    WriteFigure(arguments.map.Line(job, cells), "line", "", characters);
-    return ExitCode::kOk;
-  }
+  if (job.sweep().axes_size() == 1) PrintLine(arguments.map, job, settings);
+  const SweepCells cells = ReadCells(client, job, settings);
   const std::string text = arguments.map.Text(job.sweep(), cells, settings.OutputStyle());
   if (text.empty()) {
     throw Failure(ExitCode::kUsage,
@@ -100,8 +105,8 @@ void AddSweepCell(CommandLine& line, CLI::App& sweep) {
   AddJob(line, *map, &drawn->job);
   AddDestination(
       line, *map, "-f,--file", &drawn->file,
-      "Draw it to this file through gnuplot: .svg, .png, .pdf or .tex, a line as .txt, .gp or .csv "
-      "too. Default: print it");
+      "Draw it to this file: .svg, .png, .pdf, .eps or .pgf, a line as .txt or .csv too. Default: "
+      "print it");
   drawn->map.AddTo(line, *map);
   line.SetAction(*map, drawn, DrawMap);
 

@@ -16,12 +16,11 @@
 #include "cli/base/failure.h"
 #include "cli/base/scalar.h"
 #include "cli/base/unit.h"
-#include "cli/figures/draw.h"
-#include "cli/figures/overlay.h"
 #include "cli/input/measured.h"
 #include "cli/link/connect.h"
 #include "cli/text/comparison/render_signals.h"
 #include "cli/text/print_job.h"
+#include "cli/verbs/job/contactsim.h"
 #include "cli/verbs/job/options.h"
 
 namespace contact::cli {
@@ -126,7 +125,11 @@ ExitCode MeasuredComparison::Run(const std::string& job, const std::string& file
   comparison.file = file;
   comparison.fitted = range;
   if (!plot.empty()) {
-    Draw(MeasuredFigure(run, found.signals, comparison), FormatOfFigure(plot), plot);
+    std::vector<std::string> words = {"measured", fmt::format("--shift={}", shift),
+                                      "--file=" + plot};
+    for (const std::string& pair : map_) words.push_back("--map=" + pair);
+    words.insert(words.end(), {"--", run.job.name(), file});
+    RunContactsim(words, settings);
     fmt::print(stderr, "{}\n", plot);
   }
   Print(comparison, settings);

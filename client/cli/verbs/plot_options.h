@@ -3,39 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "cli/figures/figure.h"
-#include "cli/figures/form/figure_style.h"
-#include "cli/figures/run/run_curves.h"
 #include "cli/settings/command_line.h"
 
 namespace contact::cli {
 
-/// The flags of `plot` that say what part of a run a figure shows, and how it looks.
-class PlotOptions {
- public:
-  /// Declares the flags. This object must outlive `command`, which writes to it.
-  void AddTo(CommandLine& line, CLI::App& command);
+/// The names of the figures that can be made of a run, such as `force`.
+const std::vector<std::string>& PresetNames();
 
-  /// What the figure shows of the run.
-  const FigurePart& part() const { return part_; }
-  /// How it looks. Throws Failure (kUsage) for a size or a font that is none.
-  FigureStyle Look() const;
-  /// Makes the axes of a figure those that the flags ask for. Throws Failure (kUsage) if no axis
-  /// can have a unit that is named, or if nothing is left to show on a logarithmic axis.
-  void Adapt(Figure* figure) const;
+/// Adds the flags of `plot` that say what part of a run a figure shows, and how it looks.
+void AddPlotOptions(CommandLine& line, CLI::App& command);
 
- private:
-  void AddPart(CommandLine& line, CLI::App& command);
-  void AddLook(CommandLine& line, CLI::App& command);
-
-  FigurePart part_;
-  std::string size_;
-  std::string font_;
-  std::string style_ = "colour";
-  std::vector<std::string> units_;
-  bool log_ = false;
-  bool no_title_ = false;
-  bool no_provenance_ = false;
-};
+/// Those of them that the parsed line has, as words for contactsim.
+std::vector<std::string> GivenPlotOptions(const CLI::App& command);
 
 }  // namespace contact::cli

@@ -10,18 +10,18 @@ from typing import Any, Callable, Iterable, Iterator, Mapping
 import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
-from . import tools
+from . import pages
 from .calls import (TRIES, JobLike, address_of, create_request, deadline_of, ended, job_name,
                     open_channel)
 from .downloading import Download
 from .errors import CallError, RunFailed, from_rpc
 from .keywords import hinted
+from .pages import PathLike
 from .progress import ProgressBar
 from .recording import KINDS, Recording
 from .result import Result
 from .scenario import ScenarioLike
 from .sweeping import AxisValue, SweepResult, make_sweep
-from .tools import PathLike
 from .watching import WHOLE, JobChange, Position, Roster, delivery_options
 
 
@@ -42,8 +42,8 @@ class Client:
                  token_file: str | None = None) -> None:
         self.address = address_of(address)
         self._timeout_s = timeout_s
-        files = {"tls_ca": tls_ca, "cert": cert, "key": key, "token_file": token_file}
-        self._channel = open_channel(grpc, self.address, files)
+        self._files = {"tls_ca": tls_ca, "cert": cert, "key": key, "token_file": token_file}
+        self._channel = open_channel(grpc, self.address, self._files)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
     def close(self) -> None:
@@ -109,11 +109,14 @@ class Client:
             created: job_pb2.Job = self._call(self._stub.CreateJob, request)
             return self._sweep(created.name, deadline, bar)
 
-    def sweep_result(self, job: JobLike, *, timeout_s: float | None = None) -> SweepResult:
-        """The cells of a sweep, once it has ended."""
-        return self._sweep(job_name(job), deadline_of(timeout_s), ProgressBar(False))
+    def sweep_result(self, job: JobLike, *, failed: bool = False,
+                     timeout_s: float | None = None) -> SweepResult:
+        """The cells of a sweep, once it has ended; raises RunFailed if it ended early, unless
+        `failed`."""
+        return self._sweep(job_name(job), deadline_of(timeout_s), ProgressBar(False), failed)
 
-    def _sweep(self, name: str, deadline: float | None, bar: ProgressBar) -> SweepResult:
+    def _sweep(self, name: str, deadline: float | None, bar: ProgressBar,
+               failed: bool = False) -> SweepResult:
         position = Position(name, self.address, 0, ["sweep_cell", *bar.kinds], deadline)
         cells = []
         for event in self._stream(self._stub.WatchJob, position):
@@ -121,7 +124,7 @@ class Client:
             if event.WhichOneof("payload") == "sweep_cell":
                 cells.append(event.sweep_cell)
         job = self.get(name)
-        if job.state != job_pb2.Job.SUCCEEDED:
+        if job.state != job_pb2.Job.SUCCEEDED and not failed:
             raise RunFailed(job)
         return SweepResult(job, cells)
 
@@ -201,9 +204,12 @@ class Client:
             pass
         return self.get(job)
 
-    def result(self, job: JobLike, *, timeout_s: float | None = None) -> Result:
-        """The result of a job: waits for its end and fetches all that it recorded."""
-        return self._follow(job_name(job), None, deadline_of(timeout_s), ProgressBar(False))
+    def result(self, job: JobLike, *, failed: bool = False,
+               timeout_s: float | None = None) -> Result:
+        """The result of a job: waits for its end and fetches all that it recorded. Raises RunFailed if
+        it did not succeed, unless `failed`."""
+        return self._follow(job_name(job), None, deadline_of(timeout_s), ProgressBar(False),
+                                  failed)
 
     def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
@@ -245,21 +251,21 @@ class Client:
     def report(self, jobs: Iterable[JobLike], path: PathLike = "report.html") -> pathlib.Path:
         """Writes a page about jobs that needs no network: ledger, figures, balances.
 
-        contactctl draws it and must be installed, gnuplot too. Raises ToolFailed.
+        Without matplotlib it has no figures.
         """
         names = [job_name(job) for job in jobs]
-        return tools.report(self.address, names, path)
+        return pages.report(self._files, self.address, names, path)
 
     def paper(self, folder: PathLike = "paper", items: Iterable[str] = ("all",)) -> bool:
         """Makes figures and tables of the paper again in a folder, with index.html of all.
 
-        True if no number deviates by more than documented. contactctl makes them and must be
-        installed; without gnuplot there are no figures. Raises ToolFailed.
+        True if no number deviates by more than documented. Without matplotlib there are no
+        figures.
         """
-        return tools.paper(self.address, items, folder)
+        return pages.paper(self._files, self.address, items, folder)
 
     def _follow(self, name: str, on_event: Callable[[event_pb2.Event], None] | None,
-                deadline: float | None, bar: ProgressBar) -> Result:
+                deadline: float | None, bar: ProgressBar, failed: bool = False) -> Result:
         recording = Recording()
         kinds = () if on_event else (*KINDS, *bar.kinds)
         position = Position(name, self.address, 0, kinds, deadline, delivery=WHOLE)
@@ -268,7 +274,7 @@ class Client:
             bar.hear(event)
             if on_event:
                 on_event(event)
-        return ended(self.get(name), recording)
+        return ended(self.get(name), recording, failed)
 
     def _call(self, method: Any, request: Any) -> Any:
         """A unary call, tried again while the server cannot be reached."""

@@ -11,7 +11,7 @@ import grpc
 from contact.v1 import job_pb2, job_service_pb2
 
 from .errors import DownloadFailed
-from .tools import PathLike
+from .pages import PathLike
 from .watching import Link
 
 

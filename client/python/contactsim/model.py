@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any, Sequence
 
 import numpy as np
 import numpy.typing as npt
-from contact.v1 import scenario_pb2
+from contact.v1 import field_rules_pb2, scenario_pb2
+from google.protobuf.json_format import MessageToDict
 
 Array = npt.NDArray[np.float64]
 
 _STANDARD_GRAVITY = 9.80665  # m/s²
+
+# Of δ in the damping force, where it is not that of the spring.
+_DAMPING_EXPONENTS = {scenario_pb2.Contact.KELVIN_VOIGT: 0.0, scenario_pb2.Contact.DASHPOT: 0.0,
+                      scenario_pb2.Contact.HERTZ_QUARTER_POWER: 0.25}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,6 +28,8 @@ class ContactLaw:
     bodies: tuple[str, ...]
     stiffness: float  #: N/m^exponent
     exponent: float
+    damping_exponent: float  #: Of δ in the damping force.
+    wall_touch: float | None  #: Centre of the body when it touches a wall that stands still, in m.
 
 
 def contact_pairs(contact: scenario_pb2.Contact) -> list[tuple[str, ...]]:
@@ -47,28 +55,47 @@ def contact_names(contact: scenario_pb2.Contact) -> list[str]:
 
 def contact_laws(scenario: scenario_pb2.Scenario) -> list[ContactLaw]:
     """The contacts with the names that the server gives them."""
+    bodies = {body.name: body for body in scenario.bodies}
     laws = []
     for contact in scenario.contacts:
         exponent = contact.exponent if contact.HasField("exponent") else 1.5
-        laws += [ContactLaw(name, bodies, contact.stiffness, exponent)
-                 for name, bodies in zip(contact_names(contact), contact_pairs(contact))]
+        damping = _DAMPING_EXPONENTS.get(contact.damping, exponent)
+        for name, pair in zip(contact_names(contact), contact_pairs(contact)):
+            touching = [bodies[body] for body in pair]
+            laws.append(ContactLaw(name, pair, _stiffness(contact, touching), exponent, damping,
+                                   _wall_touch(contact, touching[0], name)))
     return laws
 
 
-def wall_touches(scenario: scenario_pb2.Scenario) -> list[float]:
-    """Positions of a body's centre, in m, at which it touches its wall, if that stands still."""
-    radii = {body.name: body.radius_m for body in scenario.bodies}
-    touches = []
-    for c in scenario.contacts:
-        if not c.HasField("wall") or c.wall.HasField("motion"):
-            continue
-        wall = c.wall.position_m
-        if c.HasField("clearance_m"):
-            touches += [wall - c.clearance_m, wall + c.clearance_m]
-        else:
-            right = c.wall.side == scenario_pb2.Wall.RIGHT
-            touches.append(wall - radii[c.between[0]] * (1 if right else -1))
-    return touches
+def _stiffness(contact: scenario_pb2.Contact, bodies: Sequence[scenario_pb2.Body]) -> float:
+    """As given, or that of Hertz, which follows from materials and radii."""
+    if contact.HasField("stiffness"):
+        given: float = contact.stiffness
+        return given
+    compliance = _compliance(contact.wall.material) if contact.HasField("wall") else 0.0
+    compliance = sum((_compliance(body.material) for body in bodies), compliance)
+    curvature = sum(1 / body.radius_m for body in bodies)
+    return 4.0 / 3 / (compliance * math.sqrt(curvature))
+
+
+def _compliance(material: scenario_pb2.Material) -> float:
+    """(1−ν²)/E."""
+    ratio = material.poisson_ratio
+    value: float = (1 - ratio) * (1 + ratio) / material.youngs_modulus_pa
+    return value
+
+
+def _wall_touch(contact: scenario_pb2.Contact, body: scenario_pb2.Body,
+                name: str) -> float | None:
+    if not contact.HasField("wall") or contact.wall.HasField("motion"):
+        return None
+    if contact.HasField("clearance_m"):
+        side = -1.0 if name.endswith("-left") else 1.0
+        middle: float = contact.wall.position_m
+        return middle + side * contact.clearance_m
+    radius = -body.radius_m if contact.wall.side == scenario_pb2.Wall.LEFT else body.radius_m
+    touch: float = contact.wall.position_m - radius
+    return touch
 
 
 def mass(body: scenario_pb2.Body) -> float:
@@ -76,17 +103,39 @@ def mass(body: scenario_pb2.Body) -> float:
     if body.HasField("motion"):
         return 0.0
     if body.HasField("density_kg_per_m3"):
-        return 4 / 3 * math.pi * body.radius_m**3 * body.density_kg_per_m3
+        r = body.radius_m
+        return 4 / 3 * math.pi * r * r * r * body.density_kg_per_m3
     return body.mass_kg
 
 
+def solver_in_full(scenario: scenario_pb2.Scenario) -> dict[str, Any]:
+    """Options of the solver with the defaults of those that are not set."""
+    given = MessageToDict(scenario.solver, preserving_proto_field_name=True,
+                          including_default_value_fields=False)
+    fixed = given.get("method") == "RK4" or "step_s" in given
+    unused = "relative_tolerance" if fixed else "step_s"
+    options: dict[str, Any] = {"method": "RK4" if fixed else "ADAPTIVE"}
+    for field in scenario_pb2.Solver.DESCRIPTOR.fields:
+        rule = field.GetOptions().Extensions[field_rules_pb2.rule]
+        default = rule.default_name or (rule.default_number if rule.HasField("default_number")
+                                        else None)
+        value = given.get(field.name, default)
+        if value is not None and field.name != unused:
+            options.setdefault(field.name, value)
+    return options
+
+
 def constant_loads(scenario: scenario_pb2.Scenario) -> list[tuple[str, float]]:
-    """Body and force, in N, of each load that stays the same: gravity and constant ones."""
+    """Body and force, in N, of each load that stays the same, as gravity does."""
     forces = []
     for load in scenario.loads:
         kind = load.WhichOneof("kind")
         if kind == "constant":
             forces.append((load.body, load.constant.force_n))
+        elif kind == "step" and load.step.start_time_s == 0:
+            forces.append((load.body, load.step.force_n))
+        elif kind == "sine" and load.sine.amplitude_n == 0:
+            forces.append((load.body, 0.0))
         elif kind == "gravity":
             given = load.gravity.HasField("acceleration_m_per_s2")
             acceleration = load.gravity.acceleration_m_per_s2 if given else -_STANDARD_GRAVITY
@@ -101,7 +150,7 @@ def mechanical_energy(scenario: scenario_pb2.Scenario,
     """Kinetic energy, elastic energy of contacts and supports, that of constant loads, which is 0
     where positions are, and their sum, in J."""
     zero = np.zeros_like(arrays["time"])
-    kinetic = sum((0.5 * mass(b) * arrays[f"{b.name}.velocity"]**2 for b in scenario.bodies), zero)
+    kinetic = sum((_kinetic(body, arrays) for body in scenario.bodies if not body.fixed), zero)
     contacts = sum((_elastic(law, arrays) for law in contact_laws(scenario)), zero)
     supports = sum((_spring(support, arrays) for support in scenario.supports), zero)
     parts = {"kinetic": kinetic, "contacts": contacts}
@@ -113,14 +162,27 @@ def mechanical_energy(scenario: scenario_pb2.Scenario,
     return {**parts, "sum": sum(parts.values(), zero)}
 
 
+def _kinetic(body: scenario_pb2.Body, arrays: dict[str, Array]) -> Array:
+    velocity = arrays[f"{body.name}.velocity"]
+    energy: Array = 0.5 * mass(body) * velocity * velocity
+    return energy
+
+
 def _elastic(law: ContactLaw, arrays: dict[str, Array]) -> Array:
     """∫ k δⁿ dδ."""
-    deformation = np.maximum(arrays[f"{law.name}.deformation"], 0)
-    return law.stiffness * deformation**(law.exponent + 1) / (law.exponent + 1)
+    delta = np.maximum(arrays[f"{law.name}.deformation"], 0)
+    if law.exponent == 1.5:
+        root = np.sqrt(delta)
+    else:  # math.pow gives the last digit that C++ does; numpy's vectors may not.
+        root = np.array([math.pow(d, law.exponent - 1) if d > 0 else 0.0 for d in delta])
+    energy: Array = law.stiffness * (delta * root) * delta / (law.exponent + 1)
+    return energy
 
 
 def _spring(support: scenario_pb2.Support, arrays: dict[str, Array]) -> Array:
-    stretch = arrays[f"{support.body}.position"] - support.rest_position_m
+    stretch = arrays[f"{support.body}.position"]
     if support.other:
         stretch = stretch - arrays[f"{support.other}.position"]
-    return 0.5 * support.stiffness_n_per_m * stretch**2
+    stretch = stretch - support.rest_position_m
+    energy: Array = 0.5 * support.stiffness_n_per_m * stretch * stretch
+    return energy

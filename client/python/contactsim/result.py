@@ -101,14 +101,18 @@ class Result:
         """The bodies at the end of the run."""
         return _frame(job_pb2.FinalBody.DESCRIPTOR, self.job.final_bodies)
 
+    @property
+    def passes(self) -> list[event_pb2.Iteration]:
+        """The passes of the search for μ, in their order."""
+        return [one for _, one in sorted(self._recording.iterations.items())]
+
     @functools.cached_property
     def iterations(self) -> pd.DataFrame:
         """The search for μ: a row for each cycle in each pass. `mu` and the bracket are in
         N·s/m^(n+1)."""
-        rows = [{"episode": key[0], "pass": key[1], "start_time_s": iteration.start_time_s,
-                 **_row(unknown), "accepted": iteration.accepted}
-                for key, iteration in sorted(self._recording.iterations.items())
-                for unknown in iteration.unknowns]
+        rows = [{"episode": one.episode, "pass": one.number, "start_time_s": one.start_time_s,
+                 **_row(unknown), "accepted": one.accepted}
+                for one in self.passes for unknown in one.unknowns]
         fields = [field.name for field in event_pb2.Iteration.Unknown.DESCRIPTOR.fields]
         return pd.DataFrame(
             rows, columns=["episode", "pass", "start_time_s", *fields, "accepted"])

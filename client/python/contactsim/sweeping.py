@@ -5,11 +5,11 @@ from __future__ import annotations
 import html
 from typing import TYPE_CHECKING, Any, Iterable, Mapping, Union
 
-import numpy as np
 import pandas as pd
 from contact.v1 import event_pb2, job_pb2, scenario_pb2
 from google.protobuf.descriptor import FieldDescriptor
 
+from .labels import axis_label
 from .scenario import ScenarioLike, read_scenario
 from .units import field_at, unit_of, unit_of_metric
 
@@ -25,7 +25,6 @@ _VARIABLE = "var:"
 _CUT = "CUT"
 _UNTOUCHED = "no contact"
 _WORDS = {event_pb2.SweepCell.CUT: _CUT, event_pb2.SweepCell.NO_CONTACT: _UNTOUCHED}
-_GREYS = {_CUT: "#b0b0b0", _UNTOUCHED: "#e8e8e8"}
 
 
 def make_sweep(scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
@@ -86,7 +85,8 @@ class SweepResult:
         self.units = {name: unit_of(field) for name, field in zip(self.axes, self._fields())}
         self.units.update({metric: unit_of_metric(metric) for metric in self.metrics})
         by_index = {cell.index: cell for cell in cells}
-        ordered = [by_index[index] for index in sorted(by_index)]
+        #: The messages, in the order of their numbers.
+        self.cells = ordered = [by_index[index] for index in sorted(by_index)]
         index = pd.Index([cell.index for cell in ordered], name="cell")
         #: A row a cell: axes, metrics, `state`, `convergence`, `message`. Axes of an enum have its
         #: words. Metrics of a cell that failed are NaN, as are those that `unknown` has a word for.
@@ -111,46 +111,35 @@ class SweepResult:
             data[name].attrs["units"] = self.units[name]
         return data
 
-    def heatmap(self, metric: str | None = None, ax: Axes | None = None) -> Axes:
+    @property
+    def axis_labels(self) -> list[str]:
+        """What each axis varies, in words, such as `velocity of B1 [m/s]`."""
+        return [axis_label(self.job.sweep, axis) for axis in range(len(self.axes))]
+
+    def heatmap(self, metric: str | None = None, ax: Axes | None = None, *, log: bool = False,
+                contours: bool = False) -> Axes:
         """A metric, by default the first, over the two axes of the sweep: the first one down.
 
         Cells that did not converge are hatched, those that failed crossed; those that `unknown` has
-        a word for are grey, with a legend.
+        a word for are grey. With `contours` lines of equal value lie between the cells that
+        converged.
         """
         import matplotlib.pyplot as plt  # Only who plots needs matplotlib.
 
-        metric = metric or self.metrics[0]
-        if len(self.axes) != 2 or metric not in self.metrics:
-            raise ValueError(f"a heat map is of two axes, and of one of {self.metrics}")
-        table = self.frame.pivot(index=self.axes[0], columns=self.axes[1], values=metric)
+        from .figures.maps import add_legend, draw_map
+        from .figures.sweeps import heat_map
+
+        map_ = heat_map(self, metric or self.metrics[0], log)
         if ax is None:
             ax = plt.subplots(layout="constrained")[1]
-        image = ax.imshow(table.to_numpy(float), aspect="auto", cmap="viridis")
-        ax.figure.colorbar(image, ax=ax, label=metric)
-        ax.set_xticks(range(table.shape[1]), [_text(value) for value in table.columns])
-        ax.set_yticks(range(table.shape[0]), [_text(value) for value in table.index])
-        ax.set(xlabel=self.axes[1], ylabel=self.axes[0])
-        self._mark(ax, table, metric)
+        draw_map(map_, ax, contours)
+        add_legend(map_, ax)
         return ax
 
-    def _mark(self, ax: Axes, table: pd.DataFrame, metric: str) -> None:
-        legend = {}
-        for index, cell in self.frame.iterrows():
-            x = table.columns.get_loc(cell[self.axes[1]])
-            y = table.index.get_loc(cell[self.axes[0]])
-            square = ([x - 0.5, x + 0.5, x + 0.5, x - 0.5], [y - 0.5, y - 0.5, y + 0.5, y + 0.5])
-            word = self.unknown.loc[index, metric]
-            if cell.state == "FAILED":
-                ax.plot([x - 0.5, x + 0.5], [y - 0.5, y + 0.5], color="#b00020", lw=1.5)
-                ax.plot([x - 0.5, x + 0.5], [y + 0.5, y - 0.5], color="#b00020", lw=1.5)
-            elif word:
-                legend[word] = ax.fill(*square, facecolor=_GREYS[word], lw=0,
-                                       hatch="|" if word == _CUT else None)[0]
-            elif cell.convergence != "FULL":
-                ax.fill(*square, fill=False, hatch="///", lw=0)
-        if legend:
-            ax.legend(list(legend.values()), list(legend), loc="lower right",
-                      bbox_to_anchor=(1, 1), ncols=len(legend), frameon=False)
+    def value_text(self, axis: int, value: float) -> str:
+        """A value of an axis in a few digits, or its word."""
+        shown = _shown(value, self._fields()[axis])
+        return shown if isinstance(shown, str) else f"{shown:.4g}"
 
     def _words(self, cell: event_pb2.SweepCell) -> list[str]:
         """Of each metric; servers of earlier versions do not tell where it comes from."""
@@ -200,6 +189,3 @@ def _shown(value: float, field: FieldDescriptor | None) -> AxisValue:
     choice = field.enum_type.values_by_number.get(round(value))
     return choice.name if choice is not None else value
 
-
-def _text(value: AxisValue) -> str:
-    return value if isinstance(value, str) else f"{value:.4g}"

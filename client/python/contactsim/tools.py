@@ -1,36 +1,18 @@
-"""What contactctl does for the package: pages that it draws through gnuplot, and translations."""
+"""What contactctl computes for the package: translations."""
 
 from __future__ import annotations
 
 import json
 import os
-import pathlib
 import shutil
 import subprocess
-from typing import Any, Iterable, Mapping, Optional, Sequence, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 from .errors import ContactError
-
-PathLike = Union[str, "os.PathLike[str]"]
-
-_DIFFERS = 8  # Exit code: a number is further from its reference than documented.
 
 
 class ToolFailed(ContactError):
     """contactctl is not there, or ended with an error; the text says which."""
-
-
-def report(address: str, jobs: Sequence[str], path: PathLike) -> pathlib.Path:
-    """Writes a page about jobs that needs no network; see Client.report."""
-    target = pathlib.Path(path)
-    _contactctl("--server", address, "report", *jobs, "-f", str(target))
-    return target
-
-
-def paper(address: str, items: Iterable[str], folder: PathLike) -> bool:
-    """Makes figures and tables of the paper again; see Client.paper."""
-    run = _contactctl("--server", address, "paper", *items, "-d", str(folder))
-    return run.returncode != _DIFFERS
 
 
 def translate(*tools: str, mass: float, velocity: Union[float, Sequence[float]],
@@ -60,7 +42,7 @@ def translate(*tools: str, mass: float, velocity: Union[float, Sequence[float]],
 
 
 def _contactctl(*arguments: str) -> subprocess.CompletedProcess[str]:
-    """Runs contactctl to its end; its exit code is 0 or _DIFFERS."""
+    """Runs contactctl to its end, with success."""
     program = os.environ.get("CONTACTCTL") or shutil.which("contactctl")
     if program is None:
         raise ToolFailed("this needs contactctl on the PATH, or its path in the variable "
@@ -70,6 +52,6 @@ def _contactctl(*arguments: str) -> subprocess.CompletedProcess[str]:
                              check=False)
     except OSError as error:
         raise ToolFailed(f"{program} cannot be run: {error.strerror}") from error
-    if run.returncode not in (0, _DIFFERS):
+    if run.returncode != 0:
         raise ToolFailed(run.stderr.strip() or f"contactctl ended with code {run.returncode}")
     return run

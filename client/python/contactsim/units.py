@@ -7,11 +7,11 @@ import re
 from contact.v1 import field_rules_pb2, job_pb2
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
 
-# How names in the contract end, and the unit that this means; longer endings first.
-_ENDINGS = (("_kg_per_m3", "kg/m³"), ("_m_per_s2", "m/s²"), ("_m_per_s", "m/s"),
-            ("_n_s_per_m", "N·s/m"), ("_s_per_m", "s/m"), ("_n_per_m", "N/m"),
-            ("_rad_per_s", "rad/s"), ("_kg", "kg"), ("_pa", "Pa"), ("_rad", "rad"), ("_m", "m"),
-            ("_s", "s"), ("_j", "J"), ("_n", "N"))
+from .figures.words import WORDS
+
+#: How names in the contract end, and the unit that this means; longer endings first.
+ENDINGS: list[tuple[str, str]] = [(ending, unit) for ending, unit in WORDS["endings"]]
+_POWERS = str.maketrans("23", "²³")
 _WORDS = (FieldDescriptor.CPPTYPE_STRING, FieldDescriptor.CPPTYPE_ENUM)
 _PICKS = ("first", "last", "max", "min")  #: What a metric takes of the entries of a list.
 
@@ -44,10 +44,14 @@ def unit_of(field: FieldDescriptor | None) -> str:
     """SI unit of a field: `1` without dimension, empty for words."""
     if field is None or field.cpp_type in _WORDS:
         return ""
+    unit = next((unit for ending, unit in ENDINGS if field.name.endswith(ending)), "1")
+    return stated_unit(field) or unit.replace("^", "").translate(_POWERS)
+
+
+def stated_unit(field: FieldDescriptor) -> str:
+    """The unit that the rule of a field has; empty if its name tells it."""
     rule: field_rules_pb2.FieldRule = field.GetOptions().Extensions[field_rules_pb2.rule]
-    if rule.unit:
-        return rule.unit
-    return next((unit for ending, unit in _ENDINGS if field.name.endswith(ending)), "1")
+    return str(rule.unit)
 
 
 def unit_of_metric(metric: str) -> str:

@@ -164,8 +164,8 @@ class FigureFileTest : public testing::Test {
 };
 
 TEST_F(FigureFileTest, OutputTakesAFormatOrAFile) {
-  EXPECT_EQ(Mistake(line_, "plot -o tikz -f fig.dat"), "");
-  EXPECT_EQ(line_.settings().output, OutputFormat::kTikz);
+  EXPECT_EQ(Mistake(line_, "plot -o pgf -f fig.dat"), "");
+  EXPECT_EQ(line_.settings().output, OutputFormat::kPgf);
   EXPECT_EQ(path_, "fig.dat");
   EXPECT_GT(line_.app().get_option("--output")->count(), 0U);  // So no variable takes its place.
 }
@@ -189,6 +189,19 @@ TEST_F(DestinationTest, OfAnotherCommandOutputIsTheFormat) {
   line_.app().add_subcommand("list");
   EXPECT_EQ(Mistake(line_, "list -o json"), "");
   EXPECT_EQ(line_.settings().output, OutputFormat::kJson);
+}
+
+TEST(GivenFlags, AreThoseOfTheLineAsWordsOfALine) {
+  CommandLine line("A program.");
+  CLI::App& plot = *line.app().add_subcommand("plot");
+  plot.add_option("--unit")->delimiter(',')->take_all();
+  plot.add_option("--from");
+  plot.add_option("--size");
+  plot.add_flag("--log");
+  plot.add_flag("--no-title");
+  line.app().parse("plot --unit ms,kN --from -1e-3 --log");
+  EXPECT_THAT(GivenFlags(plot, {"--from", "--unit", "--size", "--log", "--no-title"}),
+              testing::ElementsAre("--from=-1e-3", "--unit=ms", "--unit=kN", "--log"));
 }
 
 }  // namespace

@@ -156,11 +156,5 @@ TEST(ComparisonLatex, EscapesTextsAndHasAsManyColumnsAsCells) {
                            HasSubstr("jobs/b\\_c"), HasSubstr("title & - & 5\\% \\\\\n")));
 }
 
-TEST(ComparisonHtml, EscapesTextsAndMarksWhatDiffers) {
-  const std::string html = ComparisonHtml(Compare({Job("<a>"), Job("b", 200)}, {}));
-  EXPECT_THAT(html, AllOf(HasSubstr("&lt;a&gt;"), Not(HasSubstr("<a>")),
-                          HasSubstr("<tr class=\"d\"><td>A-B #1 peak force [N]")));
-}
-
 }  // namespace
 }  // namespace contact::cli

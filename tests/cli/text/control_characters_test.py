@@ -82,11 +82,11 @@ class ControlCharactersTest(CliTest):
                       ["compare", name, name]):
             with self.subTest(words=words):
                 self.assertHarmless(*words)
-        for verb in (["plot", name, "force", "-o", "force.gp"],
+        for verb in (["plot", name, "force", "-o", "force.pgf"],
                      ["plot", name, "force", "-o", "force.svg"], ["report", name, "-f", "run.html"]):
             path = self.folder / verb.pop()
             self.run_it(*verb, path, server=self.liar)
-            text = path.read_text("utf-8").replace("\t", " ")  # gnuplot indents with tabs.
+            text = path.read_text("utf-8")
             self.assertIn("begin", text, path)
             self.assertNoneIn(text, path)
         shown = json.loads(self.assertHarmless("describe", name, "-o", "json"))

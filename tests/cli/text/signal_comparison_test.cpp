@@ -4,10 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "cli/base/failure.h"
-#include "cli/figures/overlay.h"
 #include "cli/text/comparison/render_signals.h"
 #include "cli/verbs/measured_comparison.h"
 
@@ -140,23 +138,6 @@ TEST(RenderSignals, AllFormsHaveTheSameNumbers) {
   comparison.fitted = TimeRange{-1, 1};
   EXPECT_THAT(RenderSignals(comparison, {}),
               HasSubstr("simulated time = measured time +0.001 s, the best shift in [-1, 1] s"));
-}
-
-TEST(MeasuredFigure, HasPointsOverALineInTheTimeThatWasMeasured) {
-  const MeasuredSignal signal = Measured(0.04);
-  SignalComparison comparison = Compared(signal, 0.04);
-  comparison.file = "m.csv";
-  const Figure figure = MeasuredFigure(PulseRecording(), {signal}, comparison);
-  ASSERT_EQ(figure.panels.size(), 1U);
-  EXPECT_EQ(figure.panels[0].y_label, "C.contact_force [N]");
-  const auto& [line, points] = std::tie(figure.panels[0].curves[0], figure.panels[0].curves[1]);
-  EXPECT_EQ(line.mark, Figure::Mark::kLine);
-  EXPECT_EQ(points.mark, Figure::Mark::kPoints);
-  EXPECT_EQ(points.label, "m.csv");
-  EXPECT_NEAR(points.x.front(), 0.3, 1e-12);
-  EXPECT_EQ(points.y, signal.values);
-  EXPECT_NEAR(line.x.front(), 0.26, 2e-3);  // A tenth of the span before the first point.
-  EXPECT_LT(line.x.back(), 0.75);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class DoctorTest(LocalTest):
         printed, _ = self.run_it("dev", "--contactd", CONTACTD, "--", CONTACTCTL, "doctor", "-o",
                                  "json")
         checks = {check["check"]: check for check in json.loads(printed)}
-        self.assertEqual(set(checks), {"config", "server", "version", "clock", "gnuplot",
+        self.assertEqual(set(checks), {"config", "server", "version", "clock", "figures",
                                        "terminal"})
         self.assertTrue(all(check["ok"] for check in checks.values()), printed)
 
@@ -108,7 +108,7 @@ class DoctorTest(LocalTest):
         (self.folder / "contact.toml").write_text("sever = 'x:1'\n")
         printed, _ = self.run_it("doctor", "-o", "json", code=11, PATH="/nowhere", LC_ALL="C")
         bad = {check["check"] for check in json.loads(printed) if not check["ok"]}
-        self.assertEqual(bad, {"config", "server", "gnuplot", "terminal"})
+        self.assertEqual(bad, {"config", "server", "terminal"})
         self.assertTrue(all(check["fix"] for check in json.loads(printed) if not check["ok"]))
 
 

@@ -65,8 +65,8 @@ class LawPlotTest(CliTest):
         self.assertIn("is a function of ε alone", self.plot("alpha", law, code=2))
 
     def test_forms_are_those_of_plot(self):
-        for form, start in (("png", b"\x89PNG"), ("pdf", b"%PDF"), ("tex", b"% \\usepackage"),
-                            ("gp", b"set encoding")):
+        for form, start in (("png", b"\x89PNG"), ("pdf", b"%PDF"), ("pgf", b"%% Creator"),
+                            ("eps", b"%!PS")):
             drawn = self.plot("alpha", file=f"a.{form}")
             self.assertTrue(drawn.startswith(start), drawn[:40])
             self.assertEqual(self.plot("alpha", file=f"a.{form}"), drawn)

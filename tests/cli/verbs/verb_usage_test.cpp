@@ -57,8 +57,8 @@ TEST(VerbUsageTest, FileOfAnUnknownEndingIsRefusedBeforeAnyWork) {
   ExpectUsage({"export", "x", "-f", "r.h5"},
               "no format has the ending .h5; there are .jsonl, .csv");
   ExpectUsage({"plot", "x", "force", "-f", "x.jpg"},
-              "there are .csv, .svg, .png, .pdf, .txt, .tex");
-  ExpectUsage({"compare", "x", "y", "--plot", "x.eps"}, "no format has the ending .eps");
+              "there are .csv, .svg, .png, .pdf, .txt, .eps, .pgf");
+  ExpectUsage({"compare", "x", "y", "--plot", "x.bmp"}, "no format has the ending .bmp");
   ExpectUsage({"model", "plot", "alpha", "-f", "a.jpg"}, "no format has the ending .jpg");
 }
 
@@ -93,7 +93,8 @@ TEST(VerbUsageTest, HeatMapThatCannotBeDrawnIsRefusedBeforeTheSweep) {
   const std::vector<std::string> good = {e + "0.5:0.9:100", v + "0.1:0.5:100"};
   EXPECT_EQ(draw(good, "/nowhere/map.svg").code, ExitCode::kLocal);
   for (const char* name : {"map.csv", "map.jpg"}) {
-    EXPECT_THAT(draw(good, folder.path() / name).told, HasSubstr("drawn as svg, png, pdf or tex"));
+    EXPECT_THAT(draw(good, folder.path() / name).told,
+                HasSubstr("drawn as svg, png, pdf, eps or pgf"));
   }
   EXPECT_EQ(draw(good, map).code, ExitCode::kUnreachable) << "nothing is wrong but the server";
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "cli/base/escape.h"
-#include "cli/base/html.h"
 #include "cli/base/table.h"
 #include "cli/text/comparison/comparison_cells.h"
 
@@ -64,14 +63,6 @@ std::string Tabular(const ComparisonCells& cells) {
   return text + "\\hline\n\\end{tabular}\n";
 }
 
-std::string ParametersHtml(const JobComparison& comparison) {
-  if (comparison.parameters.empty()) return "<p>The scenarios are the same.</p>\n";
-  ComparisonCells cells = ParameterCells(comparison, "Parameter");
-  std::vector<HtmlRow> rows;
-  for (auto& row : cells.rows) rows.push_back({std::move(row)});
-  return HtmlTable(cells.headers, rows);
-}
-
 }  // namespace
 
 std::string RenderComparison(const JobComparison& comparison, const Style& style) {
@@ -86,17 +77,6 @@ std::string ComparisonLatex(const JobComparison& comparison) {
   const std::string parameters =
       comparison.parameters.empty() ? "" : Tabular(ParameterCells(comparison, "Parameter")) + "\n";
   return parameters + Tabular(ResultCells(comparison, 7, "Result", "Deviation"));
-}
-
-std::string ComparisonHtml(const JobComparison& comparison) {
-  ComparisonCells cells = ResultCells(comparison, 9, "Result", "Deviation");
-  std::vector<HtmlRow> rows;
-  for (std::size_t i = 0; i < cells.rows.size(); ++i) {
-    rows.push_back({std::move(cells.rows[i]), !comparison.Holds(comparison.results[i])});
-  }
-  return ParametersHtml(comparison) + HtmlTable(cells.headers, rows) +
-         fmt::format("<p>Marked: not within {}.</p>\n",
-                     HtmlText(ToleranceText(comparison.tolerance)));
 }
 
 }  // namespace contact::cli

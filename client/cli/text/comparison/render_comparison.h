@@ -13,7 +13,4 @@ std::string RenderComparison(const JobComparison& comparison, const Style& style
 /// Two LaTeX tabulars, parameters and results. They need no package.
 std::string ComparisonLatex(const JobComparison& comparison);
 
-/// Two HTML tables, parameters and results. Results that differ are marked.
-std::string ComparisonHtml(const JobComparison& comparison);
-
 }  // namespace contact::cli

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
+#include <utility>
 
-#include "cli/figures/draw.h"
-#include "cli/paper/figures.h"
+#include "cli/base/csv.h"
+#include "cli/verbs/job/contactsim.h"
+#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_study.h"
 
@@ -45,28 +46,37 @@ std::vector<double> Delivered(const LawEntry& law, const Settings& settings) {
 }
 
 // A row for each restitution, a column for each law.
-Data Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings& settings) {
-  Data data{"laws", {"restitution_in"}, {}};
-  for (const double e : Restitutions()) data.rows.push_back({e});
+std::string Curves(const std::vector<const LawEntry*>& laws, bool alpha, const Settings& settings) {
+  std::vector<std::string> header = {"pre-restitution coefficient"};
+  std::vector<std::vector<double>> columns = {Restitutions()};
   for (const LawEntry* law : laws) {
-    const std::vector<double> values = alpha ? Coefficients(*law) : Delivered(*law, settings);
-    for (std::size_t i = 0; i < values.size(); ++i) data.rows[i].push_back(values[i]);
-    data.columns.emplace_back(law->name);
+    header.emplace_back(law->name);
+    columns.push_back(alpha ? Coefficients(*law) : Delivered(*law, settings));
   }
-  return data;
+  std::string text;
+  CsvWriter csv(&text);
+  csv.Row(header);
+  for (std::size_t i = 0; i < columns.front().size(); ++i) {
+    for (const std::vector<double>& column : columns) csv.Add(column[i]);
+    csv.EndRow();
+  }
+  return text;
 }
 
 ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
-  FigureFormat(arguments.file, settings);  // Refuses a wrong format before anything is run.
   const bool alpha = arguments.what == "alpha";
-  const Data curves = Curves(ChooseLaws(arguments.laws, true), alpha, settings);
-  Figure figure = ColumnsFigure(
-      curves, alpha ? "hysteresis damping factor coefficient α" : "post-restitution coefficient",
-      {curves.columns.begin() + 1, curves.columns.end()});
-  figure.title = alpha ? "Coefficient α of the damping factor"
-                       : "Restitution that each law delivers; ideal dotted";
-  if (!alpha) AddIdeal(&figure);
-  WriteFigure(figure, arguments.what, arguments.file, settings);
+  std::vector<std::string> words = {
+      "curves",
+      alpha ? "--title=Coefficient α of the damping factor"
+            : "--title=Restitution that each law delivers; ideal dotted",
+      alpha ? "--y-label=hysteresis damping factor coefficient α"
+            : "--y-label=post-restitution coefficient"};
+  if (!alpha) words.emplace_back("--ideal");
+  // A wrong format is refused before anything is run.
+  for (std::string& word : FigureWords(arguments.file, arguments.what, settings)) {
+    words.push_back(std::move(word));
+  }
+  RunContactsim(words, settings, Curves(ChooseLaws(arguments.laws, true), alpha, settings));
   return ExitCode::kOk;
 }
 
@@ -75,8 +85,7 @@ ExitCode Plot(const ModelPlotArguments& arguments, const Settings& settings) {
 void AddLawPlot(CommandLine& line, CLI::App& model) {
   CLI::App* plot = model.add_subcommand(
       "plot",
-      "Draw damping laws over the restitution asked for: -o svg, png, pdf, txt, tikz, gp "
-      "or csv");
+      "Draw damping laws over the restitution asked for: -o svg, png, pdf, eps, pgf, txt or csv");
   auto arguments = std::make_shared<ModelPlotArguments>();
   AddOption(line, *plot, "WHAT", &arguments->what, {"alpha", "restitution"},
             "alpha, the coefficient of each law, or restitution, what it gives back")

@@ -1,0 +1,115 @@
+#include "cli/verbs/job/contactsim.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "base/file_descriptor.h"
+#include "cli/base/failure.h"
+#include "cli/base/process.h"
+#include "cli/base/scratch_folder.h"
+#include "cli/base/text_file.h"
+
+namespace contact::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Debian's Python first, for which the package of Debian is.
+constexpr const char* kPythons[] = {"/usr/bin/python3", "python3"};
+constexpr char kIsThere[] =
+    "import importlib.util as u, sys; sys.exit(not all(map(u.find_spec, ('contactsim', 'grpc'))))";
+constexpr char kVersions[] =
+    "import contactsim as c, matplotlib as m; "
+    "print(f'contactsim {c.__version__}, matplotlib {m.__version__}', end='')";
+
+void Set(const char* variable, const std::string& value) {
+  setenv(variable, value.c_str(), 1);  // No other thread reads the environment.
+}
+
+// The package of an archive or of a build, which is not installed. False if there is none.
+bool SetPath() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const char* beside : {"../python", "../../python"}) {
+    const fs::path found = folder / beside;
+    if (!fs::exists(found / "contactsim", error)) continue;
+    const char* path = std::getenv("PYTHONPATH");
+    Set("PYTHONPATH",
+        fs::weakly_canonical(found).string() + (path ? fmt::format(":{}", path) : ""));
+    return true;
+  }
+  return false;
+}
+
+void SetConnection(const Settings& settings) {
+  Set("CONTACT_SERVER", settings.server);
+  Set("CONTACT_TLS_CA", settings.tls_ca);
+  Set("CONTACT_CERT", settings.cert);
+  Set("CONTACT_KEY", settings.key);
+  Set("CONTACT_TOKEN_FILE", settings.token_file);
+}
+
+// What the first Python prints in which this ends well; none if it does in no Python.
+std::optional<std::string> Ask(const char* what, std::string* python = nullptr) {
+  for (const char* each : kPythons) {
+    auto said = OutputOf({each, "-c", what}, {.silent_errors = true});
+    if (said && python != nullptr) *python = each;
+    if (said) return said;
+  }
+  return std::nullopt;
+}
+
+std::string FindPython() {
+  const bool beside = SetPath();
+  std::string python;
+  if (Ask(kIsThere, &python)) return python;
+  throw Failure(ExitCode::kLocal,
+                beside ? "for drawing: apt-get install python3-grpcio python3-pandas python3-yaml "
+                         "python3-matplotlib"
+                       : "contactsim, which draws, is not installed: apt-get install "
+                         "python3-contactsim");
+}
+
+// Without byte code, which in a source tree would lie beside the sources.
+std::vector<std::string> Command(const std::vector<std::string>& words, const Settings& settings) {
+  SetConnection(settings);
+  std::vector<std::string> command = {
+      FindPython(), "-B", "-m", "contactsim",
+      fmt::format("--timeout={}", static_cast<double>(settings.CallTimeout().count()) / 1e3)};
+  command.insert(command.end(), words.begin(), words.end());
+  return command;
+}
+
+}  // namespace
+
+std::string ContactsimVersion() {
+  SetPath();
+  return Ask(kVersions).value_or("");
+}
+
+void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings) {
+  const std::vector<std::string> command = Command(words, settings);
+  std::fflush(nullptr);
+  BecomeProcess(command);
+}
+
+void RunContactsim(const std::vector<std::string>& words, const Settings& settings,
+                   const std::string& input) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.path() / "input";
+  WriteText(input, path);
+  const FileDescriptor read_end(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::fflush(nullptr);
+  const int code =
+      WaitForProcess(StartProcess(Command(words, settings), {.input = read_end.get()}));
+  if (code != 0) throw Failure(static_cast<ExitCode>(code), "nothing is drawn");
+}
+
+}  // namespace contact::cli

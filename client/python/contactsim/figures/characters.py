@@ -1,0 +1,149 @@
+"""Figures in characters, for terminals."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..model import Array
+from .axes import AxisUnit, chosen_unit
+from .figure import Curve, Figure, Mark, Panel, keep_largest
+from .look import Look
+from .sources import caption, printable
+
+_MARKS = "*#$%@&="
+_DASHED = 3  # From the character of a solid curve to that of a dashed one.
+_ROWS = 24  # Of a figure with one panel.
+_MOST_TICKS = 5  # Of y.
+_MARGIN = 10  # For the numbers of y.
+
+
+def text(figure: Figure, columns: int, look: Look = Look()) -> str:
+    """The figure in lines of so many columns."""
+    keep_largest(figure)
+    rows = (_ROWS if len(figure.panels) == 1 else 34) // len(figure.panels)
+    lines = [printable(figure.title)[:columns].center(columns).rstrip()] if look.title else []
+    for panel in figure.panels:
+        lines += _panel(panel, columns, rows, look, figure.crowd)
+    if figure.note:
+        lines.append(f" {figure.note}")
+    if look.provenance and figure.sources:
+        lines += ["", caption(figure.sources)]
+    return "\n".join(lines) + "\n"
+
+
+class _Axis:
+    """Where numbers stand between the ends of an axis."""
+
+    def __init__(self, values: Array, unit: AxisUnit, log: bool, cells: int) -> None:
+        known = values[~np.isnan(values) & ((values > 0) | (not log))]
+        ends = (float(known.min()), float(known.max())) if len(known) else (0.1, 1.0)
+        self.unit, self._log, self._cells = unit, log, cells
+        self.low, self.high = ends
+        if self.low == self.high:
+            space = abs(self.low) / 2 or 1.0
+            self.low, self.high = (self.low / 10, self.low * 10) if log else (self.low - space,
+                                                                              self.high + space)
+
+    def place(self, values: Array) -> Array:
+        """The cell of each value; NaN where it has none."""
+        low, high = self.low, self.high
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if self._log:
+                part = np.log(np.where(values > 0, values, math.nan) / low) / math.log(high / low)
+            else:
+                part = (values - low) / (high - low)
+        cells: Array = np.round(part * (self._cells - 1))
+        return cells
+
+    def number(self, value: float) -> str:
+        """How the axis shows a value."""
+        nothing = abs(value) < 1e-9 * (self.high - self.low) and not self._log
+        return f"{0.0 if nothing else value / self.unit.size:.4g}"
+
+    def ticks(self) -> dict[int, str]:
+        """Some round numbers and their cells."""
+        if self._log:
+            powers = np.arange(math.ceil(math.log10(self.low)), math.log10(self.high) + 1e-9)
+            values = 10.0**powers[::max(len(powers) // _MOST_TICKS, 1)]
+        else:
+            least = (self.high - self.low) / _MOST_TICKS
+            decade = 10.0**math.floor(math.log10(least))
+            step = next(part * decade for part in (1, 2, 5, 10) if part * decade >= least)
+            values = np.arange(math.ceil(self.low / step), self.high / step + 1e-9) * step
+        return {int(cell): self.number(value) for cell, value in zip(self.place(values), values)}
+
+
+def _panel(panel: Panel, columns: int, rows: int, look: Look, crowd: int) -> list[str]:
+    curves = [curve for curve in panel.curves if not curve.is_faint]
+    width, height = columns - _MARGIN - 2, max(rows - 5, 6)
+    axes = []
+    for name, label, log, cells in (("x", panel.x_label, panel.log_x, width),
+                                    ("y", panel.y_label, panel.log_y, height)):
+        values = np.concatenate([getattr(curve, name) for curve in curves])
+        largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else math.nan
+        axes.append(_Axis(values, chosen_unit(label, float(largest), log, look.units), log, cells))
+    x, y = axes
+    canvas = np.full((height, width), " ")
+    for curve in sorted(curves, key=lambda curve: curve.is_mark):
+        _draw(canvas, x.place(curve.x), y.place(curve.y), curve)
+    top = f"+- {y.unit.label} ".ljust(width + 1, "-") + "+"
+    ticks = {height - 1 - cell: number for cell, number in y.ticks().items()}
+    lines = _key(curves, columns, crowd) + [" " * _MARGIN + top[:width + 2]]
+    lines += [f"{ticks.get(i, ''):>{_MARGIN - 1}} |{''.join(row)}|" for i, row in enumerate(canvas)]
+    lines.append(" " * _MARGIN + "+" + "-" * width + "+")
+    left, right = x.number(x.low), x.number(x.high)
+    below = left + x.unit.label.center(width + 2 - len(left) - len(right)) + right
+    return [line.rstrip() for line in [*lines, " " * _MARGIN + below]]
+
+
+def _character(curve: Curve) -> str:
+    if curve.mark is Mark.START:
+        return "o"
+    if curve.mark is Mark.END:
+        return "×"
+    if curve.mark is Mark.POINTS:
+        return "+"
+    dashed = curve.mark in (Mark.DASHED, Mark.DOTTED)
+    return _MARKS[(curve.colour + (_DASHED if dashed else 0)) % len(_MARKS)]
+
+
+def _draw(canvas: Any, columns: Array, rows: Array, curve: Curve) -> None:
+    """Points, and what joins them."""
+    mark, points = _character(curve), (columns, rows)
+    if not curve.is_mark and curve.mark is not Mark.POINTS and len(columns) > 1:
+        steps = np.maximum(np.abs(np.diff(columns)), np.abs(np.diff(rows)))
+        parts = [np.linspace(0, 1, int(n) + 1) if n > 0 else np.zeros(1)
+                 for n in np.nan_to_num(steps)]
+        joined = [(columns[i] + p * (columns[i + 1] - columns[i]),
+                   rows[i] + p * (rows[i + 1] - rows[i])) for i, p in enumerate(parts)]
+        columns = np.concatenate([*(c for c, _ in joined), columns[-1:]])
+        rows = np.concatenate([*(r for _, r in joined), rows[-1:]])
+    _put(canvas, columns, rows, mark)
+    if curve.mark is Mark.LINE_POINTS:
+        _put(canvas, *points, "o")
+
+
+def _put(canvas: Any, columns: Array, rows: Array, mark: str) -> None:
+    """The mark at each point that is known."""
+    known = ~(np.isnan(columns) | np.isnan(rows))
+    places = np.round(rows[known]).astype(int), np.round(columns[known]).astype(int)
+    canvas[len(canvas) - 1 - places[0], places[1]] = mark
+
+
+def _key(curves: list[Curve], columns: int, crowd: int) -> list[str]:
+    """What each character is, as many entries in a line as there is room for."""
+    entries = [f"{curve.label} {_character(curve) * 6}" for curve in curves
+               if curve.keyed and curve.label]
+    if crowd and entries:
+        entries.append(f"{crowd} smaller: not shown")
+    lines = [""]
+    for entry in entries:
+        line = f"{lines[-1]}   {entry}" if lines[-1] else entry
+        if len(line) <= columns or not lines[-1]:
+            lines[-1] = line
+        else:
+            lines.append(entry)
+    return [line.center(columns).rstrip() for line in lines if line]

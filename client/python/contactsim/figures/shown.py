@@ -1,0 +1,151 @@
+"""The part of a run that a figure shows, and the curves, marks and bands of that part."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+from typing import TYPE_CHECKING, Callable, Iterable, Iterator, Sequence
+
+import numpy as np
+from contact.v1 import job_pb2
+
+from ..model import Array, ContactLaw, contact_laws
+from .figure import Curve, FigureError, Mark, Panel
+
+if TYPE_CHECKING:
+    from ..result import Result
+
+#: A number that the ledger tells of a cycle.
+OfCycle = Callable[[job_pb2.Cycle], float]
+
+FEW_SAMPLES = 10  #: A cycle with fewer samples than this has no visible shape.
+
+
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """By default all of a run."""
+
+    contacts: Sequence[str] = ()  #: And so the bodies that they join; empty: all.
+    start: float = -math.inf  #: Ends of the time window in s, included.
+    end: float = math.inf
+
+
+class Shown:
+    """A run, or a part of it. Bodies and contacts have the colour of their place in the scenario."""
+
+    def __init__(self, result: Result, part: Part = Part()) -> None:
+        self.result = result
+        self.part = part
+        self.laws = contact_laws(result.scenario)
+        names = [law.name for law in self.laws]
+        for name in part.contacts:
+            if name not in names:
+                raise FigureError(f"'{name}' is no contact of this job" + nearest(name, names))
+        if not part.start < part.end:
+            raise FigureError(f"--from {part.start:g} must be before --to {part.end:g}")
+
+    @property
+    def contacts(self) -> list[tuple[int, ContactLaw]]:
+        """The contacts shown, each with its colour."""
+        return [(place, law) for place, law in enumerate(self.laws)
+                if not self.part.contacts or law.name in self.part.contacts]
+
+    @property
+    def bodies(self) -> list[tuple[int, str]]:
+        """The bodies shown, each with its colour: all, or those of the contacts shown."""
+        touching = {body for _, law in self.contacts for body in law.bodies}
+        return [(place, body.name) for place, body in enumerate(self.result.scenario.bodies)
+                if not self.part.contacts or body.name in touching]
+
+    def column(self, name: str) -> Array:
+        """The samples of a column, whatever the window."""
+        if name not in self.result.arrays:
+            raise FigureError(f"this run recorded no {name}; see output.ledger_only")
+        return self.result.arrays[name]
+
+    def at(self, column: str, time: float) -> float:
+        """The value of a column at a time, which may lie between two samples."""
+        return interpolate(self.column("time"), self.column(column), time)
+
+    def in_window(self, time: float) -> bool:
+        """NaN is in no window."""
+        return self.part.start <= time <= self.part.end
+
+    def cycles(self, contact: str) -> Iterator[tuple[int, job_pb2.Cycle]]:
+        """The cycles of a contact that overlap the window, with their places in the ledger, from 1."""
+        for place, cycle in enumerate(self.result.job.cycles, 1):
+            overlaps = (cycle.end_time_s >= self.part.start
+                        and cycle.start_time_s <= self.part.end)
+            if overlaps and cycle.contact == contact:
+                yield place, cycle
+
+    def over_time(self, label: str) -> Panel:
+        """A panel over time without curves, with bands where a contact shown is within a cycle or a
+        group."""
+        names = {law.name for _, law in self.contacts}
+        spans = [(max(span.start_time_s, self.part.start), min(span.end_time_s, self.part.end))
+                 for spans in (self.result.job.groups, self.result.job.cycles) for span in spans
+                 if span.contact in names]
+        return Panel("time [s]", label, bands=_joined(span for span in spans if span[0] < span[1]),
+                     band_label="in contact")
+
+    def curve(self, values: Array, label: str, colour: int, mark: Mark = Mark.LINE) -> Curve:
+        """The part of a curve over time that is in the window, which cuts it where it ends."""
+        time = self.column("time")
+        begin = int(np.searchsorted(time, self.part.start, "left"))
+        end = int(np.searchsorted(time, self.part.end, "right"))
+        x, y = time[begin:end], values[begin:end]
+        if 0 < begin < len(time) and time[begin] > self.part.start:
+            x = np.insert(x, 0, self.part.start)
+            y = np.insert(y, 0, interpolate(time, values, self.part.start))
+        if 0 < end < len(time) and time[end - 1] < self.part.end:
+            x = np.append(x, self.part.end)
+            y = np.append(y, interpolate(time, values, self.part.end))
+        return Curve(label, colour, x, y, mark)
+
+    def marks(self, contact: str, name: str, colour: int, at_start: OfCycle,
+              at_end: OfCycle) -> list[Curve]:
+        """Marks where the cycles of a contact start and end, at these heights."""
+        ends: list[tuple[str, Mark, list[tuple[float, float]]]] = [
+            (f"{name} starts", Mark.START, []), (f"{name} ends", Mark.END, [])]
+        for _, cycle in self.cycles(contact):
+            for (_, _, points), time, value in zip(ends, (cycle.start_time_s, cycle.end_time_s),
+                                                   (at_start, at_end)):
+                if self.in_window(time):
+                    points.append((time, value(cycle)))
+        return [Curve(label, colour, np.array([x for x, _ in points]),
+                      np.array([y for _, y in points]), mark, False)
+                for label, mark, points in ends if points]
+
+
+def interpolate(xs: Array, ys: Array, x: float) -> float:
+    """y at x between samples."""
+    i = int(np.searchsorted(xs, x, "left"))
+    if i in (0, len(xs)):
+        return float(ys[min(i, len(ys) - 1)])
+    part = (x - xs[i - 1]) / (xs[i] - xs[i - 1])
+    return float(ys[i - 1] + part * (ys[i] - ys[i - 1]))
+
+
+def samples_in(cycle: job_pb2.Cycle, time: Array) -> int:
+    """The number of samples within a cycle."""
+    return int(np.searchsorted(time, cycle.end_time_s, "right")
+               - np.searchsorted(time, cycle.start_time_s, "left"))
+
+
+def nearest(word: str, words: Iterable[str]) -> str:
+    """What a user may have meant, for the end of a message."""
+    found = difflib.get_close_matches(word, list(words), 1)
+    return f" — did you mean '{found[0]}'?" if found else ""
+
+
+def _joined(spans: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Those that touch or overlap as one, so that no shade lies over another."""
+    joined: list[tuple[float, float]] = []
+    for start, end in sorted(spans):
+        if joined and start <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(joined[-1][1], end)
+        else:
+            joined.append((start, end))
+    return joined

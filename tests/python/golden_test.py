@@ -1,0 +1,23 @@
+"""The points of every preset are, to the last digit, those that contactctl 0.1.0 drew of the runs in
+golden/: files are `contactctl export -o protobuf` and `contactctl plot -o csv` of that version."""
+
+import unittest
+
+from contactsim.figures import PRESETS, preset_figure
+from contactsim.figures.figure import points_csv
+from sample_run import GOLDEN, stored_run
+
+
+class GoldenTest(unittest.TestCase):
+
+    def test_points_of_every_preset_are_those_drawn_before(self):
+        for name in ("chain", "spring"):
+            run = stored_run(name)
+            for preset in PRESETS:
+                with self.subTest(f"{name} {preset}"):
+                    drawn = points_csv(preset_figure(preset, run))
+                    self.assertEqual(drawn, (GOLDEN / f"{name}-{preset}.csv").read_text("utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()
