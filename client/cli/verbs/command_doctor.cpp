@@ -84,9 +84,9 @@ void LookAtServer(const Settings& settings, Findings* findings) {
 
 Finding LookAtFigures() {
   const std::string version = ContactsimVersion();
-  return {"figures", version.empty() ? "no contactsim, so plot draws nothing" : version,
-          version.empty() ? "apt-get install python3-contactsim python3-matplotlib" : "",
-          ExitCode::kLocal};
+  const bool good = !version.empty();
+  return {"figures", good ? version : "no contactsim with matplotlib, so plot draws nothing",
+          good ? "" : InstallDrawing(), ExitCode::kLocal};
 }
 
 Finding LookAtTerminal(const Settings& settings) {

@@ -67,8 +67,8 @@ class HandOverTest(unittest.TestCase):
     def test_package_that_is_missing_is_named(self):
         run = self.run_it("paper", "fig3")
         self.assertEqual(run.returncode, 11)
-        self.assertEqual(run.stderr, "contactctl: contactsim, which draws, is not installed: "
-                         "apt-get install python3-contactsim\n")
+        self.assertEqual(run.stderr, "contactctl: for drawing: apt-get install python3-contactsim "
+                         "python3-matplotlib\n")
 
 
 if __name__ == "__main__":

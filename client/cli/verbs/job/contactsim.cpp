@@ -67,14 +67,10 @@ std::optional<std::string> Ask(const char* what, std::string* python = nullptr) 
 }
 
 std::string FindPython() {
-  const bool beside = SetPath();
+  SetPath();
   std::string python;
   if (Ask(kIsThere, &python)) return python;
-  throw Failure(ExitCode::kLocal,
-                beside ? "for drawing: apt-get install python3-grpcio python3-pandas python3-yaml "
-                         "python3-matplotlib"
-                       : "contactsim, which draws, is not installed: apt-get install "
-                         "python3-contactsim");
+  throw Failure(ExitCode::kLocal, "for drawing: " + InstallDrawing());
 }
 
 // Without byte code, which in a source tree would lie beside the sources.
@@ -92,6 +88,12 @@ std::vector<std::string> Command(const std::vector<std::string>& words, const Se
 std::string ContactsimVersion() {
   SetPath();
   return Ask(kVersions).value_or("");
+}
+
+std::string InstallDrawing() {
+  return fmt::format("apt-get install {} python3-matplotlib",
+                     SetPath() ? "python3-grpcio python3-pandas python3-yaml"
+                               : "python3-contactsim");
 }
 
 void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings) {

@@ -14,6 +14,9 @@ namespace contact::cli {
 /// Its version and that of matplotlib; empty if one of them is not there.
 std::string ContactsimVersion();
 
+/// The command that installs what drawing needs.
+std::string InstallDrawing();
+
 /// Becomes this program. Throws Failure (kLocal) with the missing Debian package if it is not
 /// there.
 [[noreturn]] void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings);
