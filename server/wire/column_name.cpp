@@ -20,6 +20,7 @@ constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"_n_s_per_m
                                                                     {"_s_per_m", "s/m"},
                                                                     {"_n_per_m", "N/m"},
                                                                     {"_rad", "rad"},
+                                                                    {"_hz", "Hz"},
                                                                     {"_pa", "Pa"},
                                                                     {"_kg", "kg"},
                                                                     {"_m", "m"},

@@ -1,7 +1,6 @@
 import {describe, expect, it} from 'vitest';
 
 import {bytes, compact, count, decimals, exact, seconds, short} from '../src/model/numbers';
-import {readableUnit} from '../src/model/units';
 
 describe('numbers', () => {
   it('keep every digit that identifies a double', () => {
@@ -23,17 +22,5 @@ describe('numbers', () => {
     expect(short(0.451875612)).toBe('0.4519');
     expect([0.00009916607606633963, -0.003731206344233148, 225937807.9203246, 0, NaN].map((value) => compact(value, 7)))
       .toEqual(['9.916608e-5', '-0.003731206', '225937800', '0', '–']);
-  });
-});
-
-describe('units', () => {
-  it('take prefixes as those of contactctl do', () => {
-    expect(readableUnit('time [s]', 0.004)).toEqual({factor: 1e-3, label: 'time [ms]'});
-    expect(readableUnit('force [N]', 10507).label).toBe('force [kN]');
-    expect(readableUnit('time [s]', 5000).label).toBe('time [s]');
-    expect(readableUnit('μ [N·s/m^(n+1)]', 4.5e8).label).toBe('μ [MN·s/m^(n+1)]');
-    expect(readableUnit('|W_r/W_c + ε²| [1]', 1e-12).label).toBe('|W_r/W_c + ε²| [10⁻¹²]');
-    expect(readableUnit('area [m^2]', 1e-6).label).toBe('area [10⁻⁶ m^2]');
-    expect(readableUnit('velocity [m/s]', 0.2).label).toBe('velocity [m/s]');
   });
 });

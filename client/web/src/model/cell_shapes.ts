@@ -2,6 +2,7 @@
 // as ten.
 
 import type {SweepCell} from '../api/generated/contact/v1/event_pb';
+import look from '../../../python/contactsim/figures/words.json';
 import {interpolate} from './panel';
 import {short} from './numbers';
 import {inkOn, metricOf, outcomeOf, unknownOf, viridis} from './sweep';
@@ -37,7 +38,7 @@ export interface MapShapes {
 }
 
 /** The colours of cells without a known number. */
-export const GREYS = {'CUT': '#b0b0b0', 'no contact': '#e8e8e8'};
+export const GREYS = {'CUT': look.map.cut, 'no contact': look.map.no_contact};
 
 /** Paths by colour. */
 export function byColour(parts: Iterable<[string, string]>): [string, string][] {

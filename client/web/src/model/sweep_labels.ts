@@ -1,4 +1,4 @@
-// What the axes and metrics of a sweep are in words with their units, as contactctl's figures have them.
+// What the axes and metrics of a sweep are in words with their units, as contactsim has them.
 
 import {getOption, hasOption, ScalarType, type DescField, type DescMessage} from '@bufbuild/protobuf';
 
@@ -6,12 +6,7 @@ import {rule} from '../api/generated/contact/v1/field_rules_pb';
 import {JobSchema, RunSummarySchema} from '../api/generated/contact/v1/job_pb';
 import {ScenarioSchema, type Contact, type Scenario, type Sweep} from '../api/generated/contact/v1/scenario_pb';
 import {partsOf} from './field_path';
-
-// How names in the contract end, and the unit that this means; longer endings first.
-const UNITS: [string, string][] = [
-  ['_n_s_per_m', 'N·s/m'], ['_kg_per_m3', 'kg/m^3'], ['_rad_per_s', 'rad/s'], ['_m_per_s2', 'm/s^2'], ['_m_per_s', 'm/s'],
-  ['_s_per_m', 's/m'], ['_n_per_m', 'N/m'], ['_rad', 'rad'], ['_pa', 'Pa'], ['_kg', 'kg'], ['_m', 'm'], ['_s', 's'], ['_j', 'J'], ['_n', 'N'],
-];
+import look from '../../../python/contactsim/figures/words.json';
 
 /** A field, and what stands in brackets behind it. */
 interface Step {
@@ -19,7 +14,9 @@ interface Step {
   entry: string | undefined;
 }
 
+/** None if that is no path. */
 function stepsOf(path: string): Step[] {
+  if (!/^([^.[\]]+(\[[^[\]]+\])?(\.(?!$)|$))+$/.test(path)) return [];
   const steps: Step[] = [];
   for (const part of partsOf(path)) {
     if (part.startsWith('[')) steps.at(-1)!.entry = part.slice(1, -1);
@@ -47,7 +44,7 @@ function quantityOf(field: DescField): [string, string] {
   if (field.fieldKind !== 'scalar' || field.scalar !== ScalarType.DOUBLE) return [name, ''];
   const unit = hasOption(field, rule) ? getOption(field, rule).unit : '';
   if (unit) return [name, unit];
-  const [ending, found] = UNITS.find(([end]) => name.endsWith(end)) ?? ['', '1'];
+  const [ending = '', found = '1'] = look.endings.find(([end]) => name.endsWith(end!)) ?? [];
   return [name.slice(0, name.length - ending.length), found];
 }
 

@@ -1,7 +1,9 @@
-// Dark and light: as the system says, or as chosen. Colours of curves are those of contactctl's
+// Dark and light: as the system says, or as chosen. Colours and dashes of curves are those of contactsim's
 // figures, which people with any colour vision can tell apart.
 
 import {useEffect, useState} from 'preact/hooks';
+
+import look from '../../../python/contactsim/figures/words.json';
 
 export type Theme = 'light' | 'dark';
 const KEY = 'contact.theme';
@@ -42,21 +44,17 @@ export function useTheme(): Theme {
   return shown;
 }
 
-const LIGHT = ['#0072B2', '#D55E00', '#009E73', '#B8578F', '#A87400', '#2A86BD', '#000000'];
-const DARK = ['#4FB3EA', '#FF8C42', '#2FD3A5', '#E69AC6', '#F2BC3F', '#8FD0F5', '#F0F0F0'];
-const DASHES: number[][] = [[], [9, 4], [2, 3], [9, 3, 2, 3]];
-
 /** The colour of a curve. */
 export function colourOf(place: number, shown: Theme): string {
-  const palette = shown === 'dark' ? DARK : LIGHT;
+  const palette = shown === 'dark' ? look.palette_on_dark : look.palette;
   return palette[place % palette.length]!;
 }
 
 // There is no room for names beside the curves of a narrow page.
 const narrow = matchMedia('(max-width: 560px)');
 
-/** The dashes of a curve: other ones for each turn of the palette, on narrow pages for each curve. */
+/** The dashes of a curve, in its widths: other ones for each turn of the palette, on narrow pages for each curve. */
 export function dashOf(place: number): number[] {
-  if (narrow.matches) return DASHES[place % DASHES.length]!;
-  return DASHES[Math.floor(place / LIGHT.length) % DASHES.length]!;
+  const turn = narrow.matches ? place : Math.floor(place / look.palette.length);
+  return look.dashes[turn % look.dashes.length]!.map((widths) => 1.6 * widths);
 }
