@@ -147,8 +147,8 @@ class ClientTest(ServerTest):
         np.testing.assert_allclose(half["cycles[B1-B2].alpha"], 2.206095738306658, rtol=1e-6)
         self.assertEqual(sweep.xr["iterations"].sel({"contacts[*].restitution": 0.5}).shape, (2,))
         ax = sweep.heatmap("cycles[B1-B2].alpha")
-        self.assertEqual(ax.get_xlabel(), "contacts[*].restitution")
-        self.assertEqual(len(ax.images), 1)
+        self.assertEqual(ax.get_xlabel(), "restitution of all contacts [1]")
+        self.assertEqual(len(ax.collections), 1)
         self.assertEqual(len(ax.lines) + len(ax.patches), 0)  # Nothing failed.
         self.assertIn("6 of 6 cells", sweep._repr_html_())
         again = self.client.sweep_result(sweep.name, timeout_s=PATIENCE_S)

@@ -118,7 +118,7 @@ class SweepTest(CliTest):
         self.run_it("sweep", "export", job, "--heatmap", figure)
         svg = figure.read_text("utf-8")
         self.assertEqual(svg.count("<pattern"), 1)  # One cell did not converge.
-        self.assertEqual(svg.count("rgb(176,   0,  32)"), 2)  # Two failed.
+        self.assertEqual(svg.count("stroke: #b00020"), 4)  # Two failed; a cross has two lines.
         self.assertIn("restitution of B1-B2 [1]", svg)
         png = self.folder / "map.png"
         self.run_it("sweep", "export", job, "--heatmap", png)

@@ -88,6 +88,8 @@ def heat_map(sweep: SweepResult, metric: str, log: bool = False) -> HeatMap:
 
 def _shown(sweep: SweepResult, metric: str, log: bool) -> Array:
     """The value of each cell; NaN where the figure shows none."""
+    if metric not in sweep.metrics:
+        raise FigureError(f"the sweep has no metric {metric}, but {', '.join(sweep.metrics)}")
     values = sweep.frame[metric].to_numpy(float)
     with np.errstate(invalid="ignore"):
         return np.where(np.isfinite(values) & ((values > 0) | (not log)), values, math.nan)
