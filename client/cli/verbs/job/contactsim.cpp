@@ -91,9 +91,9 @@ std::string ContactsimVersion() {
 }
 
 std::string InstallDrawing() {
-  return fmt::format("apt-get install {} python3-matplotlib",
-                     SetPath() ? "python3-grpcio python3-pandas python3-yaml"
-                               : "python3-contactsim");
+  return fmt::format(
+      "apt-get install {} python3-matplotlib",
+      SetPath() ? "python3-grpcio python3-pandas python3-yaml" : "python3-contactsim");
 }
 
 void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings) {
