@@ -9,9 +9,9 @@ import unittest
 from contact.v1 import scenario_pb2
 from contactsim.figures import FigureError
 from contactsim.figures.axes import AxisUnit, chosen_unit, named_unit, readable_unit, unit_of
-from contactsim.figures.draw import typeset
 from contactsim.figures.figure import Curve, Mark
 from contactsim.figures.look import Look, parse_font, parse_size
+from contactsim.figures.scale import typeset
 from contactsim.figures.words import WORDS
 from contactsim.labels import axis_label, metric_label
 from contactsim.units import ENDINGS

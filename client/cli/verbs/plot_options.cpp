@@ -55,8 +55,9 @@ void AddLook(CommandLine& line, CLI::App& command) {
 
 const std::vector<std::string>& PresetNames() {
   static const std::vector<std::string> names = {
-      "position",   "displacement", "velocity",   "force", "deformation-velocity",
-      "hysteresis", "restitution",  "iterations", "energy"};
+      "position",     "displacement",    "velocity",          "force",  "deformation-velocity",
+      "hysteresis",   "restitution",     "iterations",        "energy", "force-map",
+      "velocity-map", "force-waterfall", "velocity-waterfall"};
   return names;
 }
 

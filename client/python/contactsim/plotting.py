@@ -77,3 +77,19 @@ class Plots:
     def energy(self, ax: Axes | None = None) -> Axes:
         """What holds energy over t, and the sum, which damping and loads that vary change."""
         return self("energy", ax)
+
+    def force_map(self, ax: Axes | None = None) -> Axes:
+        """Contact force over t as colours, a row for each contact: how a wave goes through many."""
+        return self("force-map", ax)
+
+    def velocity_map(self, ax: Axes | None = None) -> Axes:
+        """v over t as colours, a row for each body."""
+        return self("velocity-map", ax)
+
+    def force_waterfall(self, ax: Axes | None = None) -> Axes:
+        """Contact force over t, each contact on a line of its own."""
+        return self("force-waterfall", ax)
+
+    def velocity_waterfall(self, ax: Axes | None = None) -> Axes:
+        """v over t, each body on a line of its own."""
+        return self("velocity-waterfall", ax)

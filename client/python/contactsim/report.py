@@ -59,12 +59,17 @@ def _section(run: Result, place: int, server: str, draw: bool) -> str:
         _heading(3, f"repeat-{run.name}", "How to repeat it"), _repeat(run, server)])
 
 
+# The page has positions and maps.
+_LEFT_OUT = ("displacement", "force-waterfall", "velocity-waterfall")
+
+
 def _figures(run: Result, place: int) -> str:
     """Those of all presets for which the run has data; the page names their source."""
     shown = []
     for preset in PRESETS:
-        if preset == "displacement":
-            continue  # The page has the positions.
+        many = len(run.job.scenario.contacts) > Figure.most_colours
+        if preset in _LEFT_OUT or (preset.endswith("-map") and not many):
+            continue
         try:
             figure = preset_figure(preset, run)
         except FigureError:

@@ -9,11 +9,13 @@ import numpy as np
 
 from ..model import Array
 from .axes import AxisUnit, chosen_unit
-from .figure import Curve, Figure, Mark, Panel, keep_largest
+from .figure import Curve, Figure, Kind, Mark, Panel, keep_largest
 from .look import Look
+from .picture import cells
 from .sources import caption, printable
 
 _MARKS = "*#$%@&="
+_SHADES = " .:-=+*#%@"  # Of a map, from 0 to the largest value.
 _DASHED = 3  # From the character of a solid curve to that of a dashed one.
 _ROWS = 24  # Of a figure with one panel.
 _MOST_TICKS = 5  # Of y.
@@ -26,7 +28,8 @@ def text(figure: Figure, columns: int, look: Look = Look()) -> str:
     rows = (_ROWS if len(figure.panels) == 1 else 34) // len(figure.panels)
     lines = [printable(figure.title)[:columns].center(columns).rstrip()] if look.title else []
     for panel in figure.panels:
-        lines += _panel(panel, columns, rows, look, figure.crowd)
+        lines += (_panel(panel, columns, rows, look, figure.crowd) if panel.kind is Kind.LINES else
+                  _rows(panel, columns, rows, look))
     if figure.note:
         lines.append(f" {figure.note}")
     if look.provenance and figure.sources:
@@ -97,6 +100,29 @@ def _panel(panel: Panel, columns: int, rows: int, look: Look, crowd: int) -> lis
     left, right = x.number(x.low), x.number(x.high)
     below = left + x.unit.label.center(width + 2 - len(left) - len(right)) + right
     return [line.rstrip() for line in [*lines, " " * _MARGIN + below]]
+
+
+def _rows(panel: Panel, columns: int, rows: int, look: Look) -> list[str]:
+    """Sizes of many curves, some of them named."""
+    width, curves = columns - _MARGIN - 2, panel.curves
+    picture = np.abs(cells(panel, width, max(rows - 5, 6)))
+    largest = float(picture.max())
+    unit = chosen_unit(panel.y_label, largest, False, look.units)
+    shades = np.array(list(_SHADES))[
+        np.ceil(picture / (largest or 1.0) * (len(_SHADES) - 1)).astype(int)]
+    shades = np.repeat(shades, math.ceil(width / shades.shape[1]), axis=1)[:, :width]
+    x = _Axis(curves[0].x, chosen_unit(panel.x_label, float(np.abs(curves[0].x).max()), False,
+                                       look.units), False, width)
+    names = [curves[-(-i * len(curves) // len(shades))].label for i in range(len(shades))]
+    left, right = x.number(x.low), x.number(x.high)
+    top = f"+- {unit.label} ".ljust(width + 1, "-") + "+"
+    ramp = f"'{_SHADES}' from 0 to {largest / unit.size:.4g}"
+    lines = [ramp.center(columns), " " * _MARGIN + top[:width + 2]]
+    lines += [f"{printable(name)[:_MARGIN - 1]:>{_MARGIN - 1}} |{''.join(row)}|"
+              for name, row in zip(names[::-1], shades[::-1])]
+    below = left + x.unit.label.center(width + 2 - len(left) - len(right)) + right
+    return [line.rstrip() for line in [
+        *lines, " " * _MARGIN + "+" + "-" * width + "+", " " * _MARGIN + below]]
 
 
 def _character(curve: Curve) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING, Any, Iterable
 
 import matplotlib
@@ -12,12 +11,13 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import (FuncFormatter, LogFormatterSciNotation, LogLocator,
-                               MaxNLocator, NullLocator, ScalarFormatter)
+from matplotlib.ticker import MaxNLocator
 
-from .axes import AxisUnit, chosen_unit
-from .figure import Curve, Figure, Mark, Panel
+from .axes import chosen_unit
+from .figure import Curve, Figure, Kind, Mark, Panel
 from .look import Look
+from .rows import draw_rows
+from .scale import scale_axis, scale_log_axis
 from .sources import caption, printable
 from .words import WORDS
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 _MOST_KEYS = 10  # Above it, dashed curves have one entry together.
 _MOST_LEVEL_LABELS = 4  # More are upright.
-_RAISED = str.maketrans("0123456789+-n/.", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿᐟ·")
 _GREY = "#666666"
 
 
@@ -48,6 +47,9 @@ def drawn(figure: Figure, look: Look = Look()) -> matplotlib.figure.Figure:
 
 def draw_panel(panel: Panel, ax: Axes, look: Look = Look(), key: Key | None = None) -> None:
     """Draws a panel on axes, with its key above them."""
+    if panel.kind is not Kind.LINES:
+        draw_rows(panel, ax, look)
+        return
     _draw_bands(panel, ax)
     for curve in _merged(panel.curves):
         ax.plot(curve.x, curve.y, scalex=True, scaley=True, **look.line(curve))
@@ -81,19 +83,13 @@ def add_notes(page: matplotlib.figure.Figure, note: str, origin: str, look: Look
     page.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
 
 
-def typeset(label: str) -> str:
-    """With raised exponents and lowered indices, for matplotlib."""
-    raised = re.sub(r"\^(?:\(([-+n0-9./]+)\)|(-?[0-9n.]+))",
-                    lambda found: (found[1] or found[2]).translate(_RAISED), label)
-    return re.sub(r"\b([A-Z])_([a-z])\b", r"\1$_\\mathrm{\2}$", raised.replace("$", r"\$"))
-
-
 class Key:
     """The legend above a panel: named curves, then what faint and dashed curves and bands are."""
 
     def __init__(self, panel: Panel, crowd: int, look: Look, width: float) -> None:
         self._look = look
-        named = [curve for curve in panel.curves if curve.keyed and curve.label]
+        named = [curve for curve in panel.curves
+                 if curve.keyed and curve.label and panel.kind is Kind.LINES]
         full = len(named) > _MOST_KEYS
         listed = [curve for curve in named if not (full and curve.mark is Mark.DASHED)]
         self._entries: list[tuple[Any, str]] = [
@@ -122,28 +118,6 @@ class Key:
                            columnspacing=1.4, handlelength=2.2)
         for text in legend.get_texts():
             text.set_parse_math(False)
-
-
-class _Scaled(ScalarFormatter):  # type: ignore[misc]  # matplotlib has no types.
-    """Numbers in a unit of so many units of the data."""
-
-    def __init__(self, size: float) -> None:
-        super().__init__(useOffset=False)
-        self.set_scientific(False)
-        self._size = size
-
-    def set_locs(self, locs: Any) -> None:
-        super().set_locs(np.asarray(locs) / self._size)
-
-    def __call__(self, x: float, pos: int | None = None) -> str:
-        text: str = super().__call__(x / self._size, pos)
-        return text
-
-
-def scale_axis(axis: Any, unit: AxisUnit) -> None:
-    """Shows a linear axis in a unit."""
-    axis.set_label_text(typeset(unit.label))
-    axis.set_major_formatter(_Scaled(unit.size))
 
 
 def _merged(curves: Iterable[Curve]) -> list[Curve]:
@@ -176,7 +150,6 @@ def _draw_labels(panel: Panel, ax: Axes) -> None:
                     ha="center", va="bottom", rotation=90 if upright else 0, fontsize="small")
 
 
-
 def _scale(panel: Panel, ax: Axes, look: Look) -> None:
     x = chosen_unit(panel.x_label, _largest(panel, "x", panel.log_x), panel.log_x, look.units)
     y = chosen_unit(panel.y_label, _largest(panel, "y", panel.log_y), panel.log_y, look.units)
@@ -184,7 +157,7 @@ def _scale(panel: Panel, ax: Axes, look: Look) -> None:
     for axis, unit, log in ((ax.xaxis, x, panel.log_x), (ax.yaxis, y, panel.log_y)):
         if log:
             axis._set_axes_scale("log")
-            _scale_log(axis, unit)
+            scale_log_axis(axis, unit)
         else:
             scale_axis(axis, unit)
     _limit_log(panel, ax)
@@ -196,17 +169,6 @@ def _scale(panel: Panel, ax: Axes, look: Look) -> None:
         ax.set_xticks(list(panel.x_words), list(panel.x_words.values()))
     if not panel.log_y:
         _limit_y(panel, ax)
-
-
-def _scale_log(axis: Any, unit: AxisUnit) -> None:
-    """Decades."""
-    axis.set_label_text(typeset(unit.label))
-    axis.set_major_locator(LogLocator(numticks=9))
-    if unit.size == 1:
-        axis.set_major_formatter(LogFormatterSciNotation())
-    else:
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / unit.size:g}"))
-    axis.set_minor_locator(NullLocator())
 
 
 def _limit_y(panel: Panel, ax: Axes) -> None:

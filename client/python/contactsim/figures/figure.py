@@ -35,6 +35,14 @@ class Mark(enum.Enum):
     FAINT_DOTS = enum.auto()  #: or a grey dot at each point.
 
 
+class Kind(enum.Enum):
+    """How the curves of a panel are drawn."""
+
+    LINES = enum.auto()
+    MAP = enum.auto()  #: Each as a row of colours, the first one lowest.
+    WATERFALL = enum.auto()  #: Each on a line of its own, the first one lowest.
+
+
 @dataclasses.dataclass
 class Curve:
     """Points in the order in which they are joined; NaN breaks the line."""
@@ -73,6 +81,7 @@ class Panel:
     x_label: str  #: Quantity and unit, such as `time [s]`.
     y_label: str
     curves: list[Curve] = dataclasses.field(default_factory=list)
+    kind: Kind = Kind.LINES  #: Others have curves over the same x.
     counted_x: bool = False  #: True if x are whole numbers, such as passes.
     x_words: dict[float, str] = dataclasses.field(default_factory=dict)  #: At ticks, for numbers.
     log_x: bool = False
@@ -134,7 +143,8 @@ def points_csv(figure: Figure) -> str:
 def thin(points: int, figure: Figure) -> None:
     """Reduces each curve to about `points` points. Of each stretch it keeps the first, the last, the
     lowest and the highest, so that no peak is lost."""
-    for curve in (curve for panel in figure.panels for curve in panel.curves):
+    for curve in (curve for panel in figure.panels if panel.kind is Kind.LINES
+                  for curve in panel.curves):
         if len(curve.x) <= points:
             continue
         edges = np.linspace(0, len(curve.x), max(points // 4, 1) + 1).astype(int)
@@ -152,7 +162,8 @@ def keep_largest(figure: Figure) -> None:
     others become faint, and have no marks."""
     sizes: dict[int, float] = {}
     for panel in figure.panels:
-        sizes |= _sizes(panel)
+        if panel.kind is Kind.LINES:
+            sizes |= _sizes(panel)
     ranked = sorted(sizes, key=lambda colour: (-sizes[colour], colour))
     if figure.crowd or len(ranked) <= figure.most_colours:
         return

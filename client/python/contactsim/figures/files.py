@@ -14,7 +14,7 @@ import matplotlib
 
 from . import characters, pgf
 from .draw import drawn
-from .figure import Figure, FigureError, Source, keep_largest, points_csv
+from .figure import Figure, FigureError, Kind, Source, keep_largest, points_csv
 from .look import Look
 from .sources import lines, printable
 
@@ -48,6 +48,8 @@ def save(figure: Figure, path: PathLike, form: str = "", look: Look = Look(),
 
 def rendered(figure: Figure, form: str, look: Look = Look()) -> bytes:
     """The file of a figure that matplotlib draws."""
+    if form == "pgf" and any(panel.kind is Kind.MAP for panel in figure.panels):
+        raise FigureError("pgf has no bitmaps; a map is drawn as svg, png, pdf or eps")
     keep_largest(figure)
     with drawing(look):
         return page_file(drawn(figure, look), form, figure.title, figure.sources)

@@ -13,10 +13,11 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from .draw import add_notes, add_title, typeset
+from .draw import add_notes, add_title
 from .figure import FigureError
 from .files import PathLike, drawing, page_file
 from .look import Look
+from .scale import place_ticks, typeset
 from .sources import caption
 from .sweeps import HeatMap
 from .words import WORDS
@@ -63,8 +64,8 @@ def draw_map(map_: HeatMap, ax: Axes, contours: bool = False) -> None:
     known = map_.values[np.isfinite(map_.values)]
     if not map_.log and len(known) and (known == np.round(known)).all():
         bar.ax.yaxis.set_major_locator(MaxNLocator("auto", integer=True))
-    _ticks(ax.xaxis, map_.x_texts, 64 // (max(map(len, map_.x_texts)) + 2))
-    _ticks(ax.yaxis, map_.y_texts, _MOST_TICKS)
+    place_ticks(ax.xaxis, map_.x_texts, 64 // (max(map(len, map_.x_texts)) + 2))
+    place_ticks(ax.yaxis, map_.y_texts, _MOST_TICKS)
     for (y, x), word in np.ndenumerate(map_.words):
         if word:
             _cover(ax, x, y, word, norm(map_.values[y, x]) if np.isfinite(map_.values[y, x]) else 1)
@@ -95,15 +96,6 @@ def _norm(map_: HeatMap) -> Any:
         space = max(abs(low) / 2, 0.5)
         low, high = (low / 2, low * 2) if map_.log else (low - space, low + space)
     return LogNorm(low, high) if map_.log else Normalize(low, high)
-
-
-def _ticks(axis: Any, texts: Any, most: int) -> None:
-    """Every n-th value, n round, where there is no room for all."""
-    least = math.ceil(len(texts) / max(most, 1))
-    step = next(part * 10**power for power in range(9) for part in (1, 2, 5)
-                if part * 10**power >= least)
-    axis.set_ticks(range(0, len(texts), step), texts[::step])
-    axis.set_tick_params(direction="out", top=False, right=False)
 
 
 def _cover(ax: Axes, x: int, y: int, word: str, height: float) -> None:

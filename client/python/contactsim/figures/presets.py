@@ -11,7 +11,7 @@ from contact.v1 import event_pb2, job_pb2
 
 from ..model import Array, mechanical_energy
 from .contacts import deformation_velocity, force, hysteresis
-from .figure import Curve, Figure, FigureError, Mark, Panel
+from .figure import Curve, Figure, FigureError, Kind, Mark, Panel
 from .shown import OfCycle, Part, Shown, nearest
 from .sources import source_of
 
@@ -134,6 +134,23 @@ def _energy(run: Shown) -> list[Panel]:
     return [panel]
 
 
+def _forces(run: Shown, kind: Kind) -> list[Panel]:
+    """Contact force over t, a row for each contact."""
+    return _rows(run, kind, "force [N]", [(place, law.name, f"{law.name}.contact_force")
+                                          for place, law in run.contacts])
+
+
+def _velocities(run: Shown, kind: Kind) -> list[Panel]:
+    """v over t, a row for each body."""
+    return _rows(run, kind, "velocity [m/s]", [(place, body, f"{body}.velocity")
+                                               for place, body in run.bodies])
+
+
+def _rows(run: Shown, kind: Kind, label: str, rows: list[tuple[int, str, str]]) -> list[Panel]:
+    curves = [run.curve(run.column(column), name, place) for place, name, column in rows]
+    return [Panel("time [s]", label, curves, kind)]
+
+
 #: By name: what makes the panels, and what their marks mean.
 PRESETS: dict[str, tuple[Callable[[Shown], list[Panel]], str]] = {
     "position": (_position, _CYCLES),
@@ -145,6 +162,10 @@ PRESETS: dict[str, tuple[Callable[[Shown], list[Panel]], str]] = {
     "restitution": (_restitution, "o asked for, × had"),
     "iterations": (_iterations, ""),
     "energy": (_energy, ""),
+    "force-map": (lambda run: _forces(run, Kind.MAP), ""),
+    "velocity-map": (lambda run: _velocities(run, Kind.MAP), ""),
+    "force-waterfall": (lambda run: _forces(run, Kind.WATERFALL), ""),
+    "velocity-waterfall": (lambda run: _velocities(run, Kind.WATERFALL), ""),
 }
 
 
