@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
 
 from ..model import Array
 from .figure import Panel
@@ -32,7 +35,7 @@ def _between(x: Array, values: Array, places: Array) -> Array:
     return between
 
 
-def _largest(values: Array, starts: Array, axis: int) -> Array:
+def _largest(values: Array, starts: npt.NDArray[np.signedinteger[Any]], axis: int) -> Array:
     """Of each group along an axis the value with the largest size."""
     high = np.maximum.reduceat(values, starts, axis=axis)
     low = np.minimum.reduceat(values, starts, axis=axis)
