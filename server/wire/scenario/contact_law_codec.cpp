@@ -19,7 +19,10 @@ DampingLaw DecodeDamping(const v1::Contact& message, const Rules& rules) {
 }
 
 void DecodeRestitution(const v1::Contact& message, const Rules& rules, Contact* contact) {
-  if (message.has_restitution()) {
+  if (message.has_restitution() && message.restitution() == 0) {
+    rules.Break("restitution", "is 0; must be in (0, 1]",
+                "no finite μ takes all energy; 0.01 leaves 1e-4 of it");
+  } else if (message.has_restitution()) {
     contact->restitution =
         rules.Check<v1::Contact>(v1::Contact::kRestitutionFieldNumber, message.restitution());
   } else if (!IsGiven(contact->damping)) {
