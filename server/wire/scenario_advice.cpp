@@ -11,6 +11,8 @@
 #include "simulation/forecast/first_meeting.h"
 #include "simulation/forecast/missing_contacts.h"
 #include "simulation/model/derived.h"
+#include "simulation/model/index.h"
+#include "simulation/statics/equilibrium.h"
 #include "wire/scenario/contact_codec.h"
 #include "wire/scenario/law_catalogue.h"
 #include "wire/sweep/sweep_fields.h"
@@ -176,9 +178,7 @@ void AdviseOnCycleScope(const v1::Scenario& message, std::vector<Violation>* adv
 
 // Two neighbours that meet without a contact, `pair` being the one that they lack.
 Violation Describe(const Scenario& scenario, const Contact& pair, const FirstMeeting& meeting) {
-  const auto name = [&scenario](int body) {
-    return scenario.bodies[static_cast<std::size_t>(body)].name;
-  };
+  const auto name = [&scenario](int body) { return scenario.bodies[At(body)].name; };
   return {"contacts",
           fmt::format("have none between {} and {}, which meet after {:.3g} s{} and pass through "
                       "each other",
@@ -268,6 +268,19 @@ std::vector<Violation> AdviseOnPlaces(const Scenario& scenario) {
   return {Describe(touching, *first, *soonest)};
 }
 
+std::vector<Violation> AdviseOnStart(const Scenario& scenario) {
+  if (!scenario.starts_at_rest) return {};
+  const std::vector<int> loose = FindLoose(scenario);
+  if (loose.empty()) return {};
+  return {
+      {"start",
+       fmt::format("is AT_EQUILIBRIUM, which holds {}{} at no one place: it rests near where it "
+                   "was given",
+                   scenario.bodies[At(loose[0])].name,
+                   loose.size() > 1 ? fmt::format(" and {} more", loose.size() - 1) : ""),
+       "a support, or a contact that a load presses, fixes the place"}};
+}
+
 std::vector<Violation> AdviseOnDepth(const v1::Scenario& message, const Scenario& scenario) {
   const DeepMeeting deep = FindDeepest(scenario);
   if (!(deep.share() > 1)) return {};
@@ -283,6 +296,7 @@ std::vector<Violation> AdviseOnDepth(const v1::Scenario& message, const Scenario
 std::vector<Violation> Advise(const v1::Scenario& message, const Scenario& scenario) {
   std::vector<Violation> advice = AdviseOnLaws(message);
   std::ranges::move(AdviseOnDepth(message, scenario), std::back_inserter(advice));
+  std::ranges::move(AdviseOnStart(scenario), std::back_inserter(advice));
   std::ranges::move(AdviseOnPlaces(scenario), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(scenario), std::back_inserter(advice));
   return advice;
@@ -298,6 +312,7 @@ std::vector<Violation> Advise(const v1::Sweep& sweep, const DecodedSweep& plan) 
   std::vector<Violation> advice = OfBase(sweep, AdviseOnLaws(sweep.base()));
   std::ranges::move(OfBase(sweep, AdviseOnDepth(sweep.base(), plan.first)),
                     std::back_inserter(advice));
+  std::ranges::move(OfBase(sweep, AdviseOnStart(plan.first)), std::back_inserter(advice));
   std::ranges::move(OfBase(sweep, AdviseOnPlaces(plan.first)), std::back_inserter(advice));
   std::ranges::move(AdviseOnTime(sweep, plan), std::back_inserter(advice));
   return advice;

@@ -24,6 +24,9 @@ std::vector<Violation> AdviseOnLaws(const v1::Scenario& message);
 /// and loads tell. What happened is told by AdviseOnResult.
 std::vector<Violation> AdviseOnPlaces(const Scenario& scenario);
 
+/// Advice on bodies that stand at equilibrium, and could stand elsewhere, too.
+std::vector<Violation> AdviseOnStart(const Scenario& scenario);
+
 /// Advice on the contact whose first meeting goes deepest for the radius of a sphere, if it goes
 /// deeper than that. `scenario` is what `message` was decoded to, without violations.
 std::vector<Violation> AdviseOnDepth(const v1::Scenario& message, const Scenario& scenario);

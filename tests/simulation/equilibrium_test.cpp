@@ -87,6 +87,23 @@ TEST(Equilibrium, WhatNothingMovesStaysWhereItIs) {
   EXPECT_EQ(found.positions[3], 0.25);
 }
 
+TEST(Equilibrium, BodiesThatNothingHoldsInPlaceAreLoose) {
+  using ::testing::ElementsAre;
+  Scenario s = Pile({1, 2}, -1e-3);
+  s.bodies.push_back(Ball(10));      // Nothing holds it,
+  s.bodies.push_back(Ball(20));      // nor these two, which a spring joins,
+  s.bodies.push_back(Ball(21));      //
+  s.bodies.push_back(Ball(30, -2));  // and this one flies.
+  s.supports = {{.body = 3, .other = 4, .stiffness = 1e5}};
+  EXPECT_THAT(FindLoose(s), ElementsAre(2, 3, 4));
+  s.supports.push_back({.body = 4, .stiffness = 1});
+  EXPECT_THAT(FindLoose(s), ElementsAre(2));
+  s.bodies[2].fixed = true;
+  EXPECT_THAT(FindLoose(s), IsEmpty());
+  s.bodies[1].position += 0.01;  // Lifted off.
+  EXPECT_THAT(FindLoose(s), ElementsAre(1));
+}
+
 TEST(Equilibrium, OfALongRowIsFoundForEveryExponent) {
   for (const double exponent : {1.0, 1.5, 5.0}) {
     const Scenario s = Pile(std::vector<double>(1000, 1.0), 0, exponent);

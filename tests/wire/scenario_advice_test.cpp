@@ -41,6 +41,21 @@ v1::Scenario PressedTooth() {
       end_time_s: 0.01)");
 }
 
+TEST(Advice, TellsWhatCouldStandElsewhereAtEquilibrium) {
+  v1::Scenario message = PressedTooth();
+  message.set_start(v1::Scenario::AT_EQUILIBRIUM);
+  EXPECT_THAT(AdviceOn(message), IsEmpty());
+  for (const char* name : {"idle", "other"}) {
+    v1::Body& body = *message.add_bodies();
+    body.set_name(name), body.set_mass_kg(1), body.set_position_m(-1 - message.bodies_size());
+  }
+  EXPECT_THAT(
+      AdviceOn(message),
+      ElementsAre("start: is AT_EQUILIBRIUM, which holds idle and 1 more at no one place: it "
+                  "rests near where it was given — a support, or a contact that a load "
+                  "presses, fixes the place"));
+}
+
 TEST(FirstMeeting, DurationOfAnImpactIsThatOfHertz) {
   const double mass = 2800 * 4 / 3.0 * M_PI * 1e-6 / 2;
   const double modulus = 48e9 / (1 - 0.04) / 2;

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -222,6 +223,27 @@ Equilibrium FindEquilibrium(const Scenario& scenario) {
     found.positions.push_back(scenario.bodies[i].position + (row == kNone ? 0 : u[row]));
   }
   return found;
+}
+
+std::vector<int> FindLoose(const Scenario& scenario) {
+  const std::vector<Body>& bodies = scenario.bodies;
+  const std::size_t ground = bodies.size();
+  boost::disjoint_sets_with_storage<> joined(ground + 1);
+  const auto place = [&](int body) {
+    return body == kNone || bodies[At(body)].fixed ? ground : At(body);
+  };
+  for (const Support& s : scenario.supports) joined.union_set(place(s.body), place(s.other));
+  for (const Contact& c : scenario.contacts) {
+    if (InitialGap(scenario, c) < 0) joined.union_set(place(c.left), place(c.right));
+  }
+  std::vector<int> loose;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const bool stands = !bodies[i].fixed && bodies[i].velocity == 0;
+    if (stands && joined.find_set(i) != joined.find_set(ground)) {
+      loose.push_back(static_cast<int>(i));
+    }
+  }
+  return loose;
 }
 
 }  // namespace contact

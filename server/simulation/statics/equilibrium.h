@@ -23,4 +23,8 @@ struct Equilibrium {
 /// that have a velocity, whose contacts press nothing.
 Equilibrium FindEquilibrium(const Scenario& scenario);
 
+/// The bodies that could stand elsewhere, too, where the scenario stands at equilibrium: no chain
+/// of pressed contacts and supports joins them to what is fixed.
+std::vector<int> FindLoose(const Scenario& scenario);
+
 }  // namespace contact
