@@ -146,21 +146,6 @@ std::vector<int> Rest::DisturbedBy(int collision) const {
 }
 
 // A driven body whose acceleration jumps presses each body on it with m Δẍ.
-void Rest::AddJolts(std::vector<double>* forces) const {
-  for (const Drive& drive : system_.scenario.drives) {
-    const double t = system_.time;
-    double jump = 0;
-    if (drive.begin == t) jump += MotionAt(drive, t).acceleration;
-    if (drive.end == t) jump -= MotionAt(drive, t).acceleration;
-    if (jump == 0) continue;
-    for (const Contact& c : system_.scenario.contacts) {
-      const int other = c.left == drive.body ? c.right : c.right == drive.body ? c.left : kNone;
-      if (other == kNone) continue;
-      (*forces)[At(other)] += system_.scenario.bodies[At(other)].mass * std::abs(jump);
-    }
-  }
-}
-
 std::vector<int> Rest::DisturbedByLoads() const {
   if (!system_.resting) return {};
   std::vector<double> forces(system_.scenario.bodies.size());
@@ -170,7 +155,6 @@ std::vector<int> Rest::DisturbedByLoads() const {
     if (load.end == t) forces[At(load.body)] -= LoadForce(load, t);
   }
   for (double& force : forces) force = std::abs(force);
-  AddJolts(&forces);
   return Disturbed(Spread(std::move(forces)),
                    [](double force, double stiffness) { return force / stiffness; });
 }

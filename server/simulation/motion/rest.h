@@ -33,12 +33,10 @@ class Rest {
   bool Ends(int contact, bool at_breakpoint, CycleHost& host);
   /// The contacts whose rest a collision ends that begins now.
   std::vector<int> DisturbedBy(int collision) const;
-  /// The contacts whose rest the loads and drives end that begin or end now.
+  /// The contacts whose rest the loads end that begin or end now.
   std::vector<int> DisturbedByLoads() const;
 
  private:
-  /// Adds by how much drives that begin or end now change the force on a body [N].
-  void AddJolts(std::vector<double>* forces) const;
   /// Whether what pressed it is gone, however little that stored: it is let go at once.
   bool IsLeft(int contact, double deformation) const;
   /// A quantity of each body, summed over those that closed contacts and supports join.
