@@ -13,7 +13,7 @@ SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 FACTOR = 3
 # A body touches two others, or a support holds it: how long the search takes is open.
 OPEN = ("three-ball-chain", "newton-cradle", "half-sine-pulse", "spring-wall", "shaking-table",
-        "impact-damper", "precompressed-chain")
+        "impact-damper", "precompressed-chain", "gear-rattle", "pile-driving")
 PATIENCE_S = 120
 
 

@@ -81,5 +81,5 @@ def _draw_waterfall(panel: Panel, ax: Axes, look: Look) -> None:
     unit = chosen_unit(panel.y_label, largest, False, look.units)
     name, _, end = unit.label.rpartition(" [")
     height = f"{largest / unit.size / _HEIGHT:.3g} {end.rstrip(']')}"
-    ax.set_ylabel(f"{name}; from line to line {typeset(height)}")
+    ax.set_ylabel(f"{name}; a row is {typeset(height)}")
     place_ticks(ax.yaxis, [curve.label for curve in panel.curves], _MOST_TICKS)
