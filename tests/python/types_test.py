@@ -22,10 +22,11 @@ WRONG = {"client.run(1)": "[arg-type]", "client.get('x').title + 1": "[operator]
 
 class TypesTest(unittest.TestCase):
 
-    def setUp(self):
+    @classmethod
+    def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)  # With what mypy knows of the package by then.
 
     def mypy(self, *arguments):
         # The contract's stubs are beside its modules.
