@@ -34,7 +34,7 @@ class PlotsTest(ServerTest):
                     axes[0].figure.savefig(self.folder / "plot.svg")
                     for ax in axes:
                         self.assertTrue(ax.get_ylabel())
-                        self.assertTrue(ax.lines)
+                        self.assertTrue(ax.has_data())
                     plt.close("all")
 
     def test_loop_of_the_hysteresis_has_the_area_of_the_energy_lost(self):

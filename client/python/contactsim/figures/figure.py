@@ -81,7 +81,8 @@ class Panel:
     x_label: str  #: Quantity and unit, such as `time [s]`.
     y_label: str
     curves: list[Curve] = dataclasses.field(default_factory=list)
-    kind: Kind = Kind.LINES  #: Others have curves over the same x.
+    kind: Kind = Kind.LINES  #: Others have curves over the same x, a row each.
+    row_label: str = ""  #: What each row is.
     counted_x: bool = False  #: True if x are whole numbers, such as passes.
     x_words: dict[float, str] = dataclasses.field(default_factory=dict)  #: At ticks, for numbers.
     log_x: bool = False

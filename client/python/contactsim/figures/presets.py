@@ -136,19 +136,20 @@ def _energy(run: Shown) -> list[Panel]:
 
 def _forces(run: Shown, kind: Kind) -> list[Panel]:
     """Contact force over t, a row for each contact."""
-    return _rows(run, kind, "force [N]", [(place, law.name, f"{law.name}.contact_force")
-                                          for place, law in run.contacts])
+    rows = [(place, law.name, f"{law.name}.contact_force") for place, law in run.contacts]
+    return _rows(run, kind, "contact", "force [N]", rows)
 
 
 def _velocities(run: Shown, kind: Kind) -> list[Panel]:
     """v over t, a row for each body."""
-    return _rows(run, kind, "velocity [m/s]", [(place, body, f"{body}.velocity")
-                                               for place, body in run.bodies])
+    rows = [(place, body, f"{body}.velocity") for place, body in run.bodies]
+    return _rows(run, kind, "body", "velocity [m/s]", rows)
 
 
-def _rows(run: Shown, kind: Kind, label: str, rows: list[tuple[int, str, str]]) -> list[Panel]:
+def _rows(run: Shown, kind: Kind, row: str, label: str,
+          rows: list[tuple[int, str, str]]) -> list[Panel]:
     curves = [run.curve(run.column(column), name, place) for place, name, column in rows]
-    return [Panel("time [s]", label, curves, kind)]
+    return [Panel("time [s]", label, curves, kind, row)]
 
 
 #: By name: what makes the panels, and what their marks mean.

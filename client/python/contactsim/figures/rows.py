@@ -42,6 +42,7 @@ def _draw_map(panel: Panel, ax: Axes, look: Look) -> None:
     picture = cells(panel, _MOST, _MOST)
     x, count = panel.curves[0].x, len(panel.curves)
     norm, colours = _scale_of(picture, panel.log_y)
+    ax.set_ylabel(panel.row_label)
     image = ax.imshow(picture, norm=norm, cmap=colours, aspect="auto", origin="lower",
                       interpolation="nearest", extent=(x[0], x[-1], -0.5, count - 0.5))
     bar = ax.figure.colorbar(image, ax=ax)
