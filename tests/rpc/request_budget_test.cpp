@@ -94,7 +94,7 @@ TEST_F(RequestBudgetTest, RefusesWhatIsNoRequestOrHasTooManyFields) {
   EXPECT_EQ(Refusal("\xff"), "FIELD_INVALID: the request is no CreateJobRequest");
   EXPECT_EQ(Refusal(std::string("\x0a\x02\xff\xff", 4)).substr(0, 13), "FIELD_INVALID");
   EXPECT_EQ(Refusal(WithContacts(600'000).SerializeAsString()),
-            "FIELD_INVALID: the request has more than 393216 messages");
+            "FIELD_INVALID: the request has more than 327680 messages");
   v1::CreateJobRequest names;  // Fields that are no messages.
   for (int i = 0; i < 600'000; ++i) names.mutable_job()->mutable_sweep()->add_metrics("");
   EXPECT_EQ(Refusal(names.SerializeAsString()),

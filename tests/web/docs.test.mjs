@@ -7,8 +7,8 @@ import {AxeBuilder} from '@axe-core/playwright';
 
 import {openBrowser, openPage, Server} from './harness.mjs';
 
-// The sample that docs/site makes has two cards of each group of the gallery, gear-teeth among them.
-const PAGES = ['', 'gallery/index.html', 'gallery/gear-teeth.html', 'search.html?q=restitution', 'materials.html'];
+// The sample that docs/site makes has two cards of each group of the gallery, gear-rattle among them.
+const PAGES = ['', 'gallery/index.html', 'gallery/gear-rattle.html', 'search.html?q=restitution', 'materials.html'];
 
 let server;
 let browser;
@@ -44,10 +44,10 @@ test('the search finds a page without a network', async () => {
 
 test('a card opens its scenario in the dashboard, and the dashboard leads back', async () => {
   const page = await openPage(browser, server);
-  await page.goto(`${server.origin}/docs/gallery/gear-teeth.html`);
+  await page.goto(`${server.origin}/docs/gallery/gear-rattle.html`);
   await page.locator('a.open').click();
   await page.getByText('The server accepts it.').waitFor();
-  assert.match(await page.locator('main').innerText(), /Gear teeth under a pulsating load/);
+  assert.match(await page.locator('main').innerText(), /Gear rattle/);
   await page.getByRole('link', {name: 'Documentation'}).click();
   await page.getByRole('heading', {name: 'contactd'}).waitFor();
   assert.deepEqual(page.faults, []);
