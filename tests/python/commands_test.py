@@ -2,14 +2,17 @@
 
 import contextlib
 import io
+import os
 import pathlib
+import re
+import subprocess
 import tempfile
 import unittest
 from unittest import mock
 
 import numpy as np
 from contactsim import commands
-from contactsim.figures import Curve, Figure, FigureError, Panel
+from contactsim.figures import PRESETS, Curve, Figure, FigureError, Panel
 from contactsim.paper import ITEMS
 
 
@@ -68,6 +71,15 @@ class CommandsTest(unittest.TestCase):
     def test_items_of_the_paper_are_its_figures_and_tables(self):
         self.assertEqual(len(ITEMS), len(set(ITEMS)), ITEMS)
         self.assertEqual(len(ITEMS), 15)
+
+    def test_contactctl_offers_the_same_presets_and_items(self):
+        def said(*words):
+            return subprocess.run([os.environ["CONTACTCTL"], *words], stderr=subprocess.PIPE,
+                                  text=True, timeout=60).stderr
+        offered = re.search(r"\{(.*)\}", said("plot", "last", "none"))
+        self.assertEqual(offered[1].split(","), list(PRESETS))
+        offered = re.search("one of (.*) or all", said("paper", "none"))
+        self.assertEqual(offered[1].split(", "), list(ITEMS))
 
 
 if __name__ == "__main__":

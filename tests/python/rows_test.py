@@ -1,4 +1,4 @@
-"""Many curves as a map or a waterfall: a wave through any number of contacts is seen, and no peak is lost."""
+"""Many curves as a map or a waterfall: a wave through any number of contacts is seen, no peak is lost."""
 
 import math
 import unittest
@@ -94,6 +94,21 @@ class RowsTest(unittest.TestCase):
         run.arrays["B2.velocity"] = -run.arrays["B2.velocity"]
         (picture,) = page_of("velocity-map", run).axes[0].images
         self.assertEqual(picture.norm.vmin, -picture.norm.vmax)
+
+    def test_a_decade_of_a_logarithmic_map_is_as_wide_as_another(self):
+        run = row_run(5)
+        run.arrays["B2.velocity"] = -1e-6 * run.arrays["B2.velocity"]
+        for preset, signs in (("force-map", (1,)), ("velocity-map", (1, -1))):
+            figure = preset_figure(preset, run)
+            figure.panels[0].log_y = True
+            with drawing(Look()):
+                (picture,) = drawn(figure).axes[0].images
+            for sign in signs:
+                at = picture.norm(sign * picture.norm.vmax * np.array([1, 0.1, 0.01]))
+                self.assertAlmostEqual(at[0] - at[1], at[1] - at[2], delta=0.02)
+            self.assertTrue(rendered(figure, "png").startswith(b"\x89PNG"))
+            with self.assertRaisesRegex(FigureError, "--log"):
+                text(figure, 80)
 
     def test_pgf_has_no_maps_but_waterfalls(self):
         with self.assertRaisesRegex(FigureError, "no bitmaps"):

@@ -17,7 +17,7 @@ from .errors import (ContactError, InvalidScenario, JobNotFound, NotAllowed, Ove
                      Unreachable)
 from .figures import PRESETS, Figure, FigureError, channels_figure, preset_figure
 from .figures.axes import require_units
-from .figures.figure import Curve, Panel, points_csv
+from .figures.figure import Curve, Kind, Panel, points_csv
 from .figures.look import Look, parse_font, parse_size
 from .figures.overlay import measured_figure, overlay_figure
 from .figures.shown import FEW_SAMPLES, Part, samples_in
@@ -178,6 +178,8 @@ def _plot(arguments: argparse.Namespace) -> int:
 
 def _make_log(figure: Figure) -> None:
     for panel in figure.panels:
+        if panel.kind is Kind.WATERFALL:
+            raise FigureError("--log: a waterfall has no axis of values")
         if not any((curve.y > 0).any() for curve in panel.curves):
             raise FigureError(f"--log: {panel.y_label} has no value above 0")
         panel.log_y, panel.lowest_y = True, None

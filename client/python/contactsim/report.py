@@ -61,14 +61,15 @@ def _section(run: Result, place: int, server: str, draw: bool) -> str:
 
 # The page has positions and maps.
 _LEFT_OUT = ("displacement", "force-waterfall", "velocity-waterfall")
+_FOR_MANY = ("force-map", "velocity-map")
 
 
 def _figures(run: Result, place: int) -> str:
     """Those of all presets for which the run has data; the page names their source."""
     shown = []
+    many = len(run.job.scenario.contacts) > Figure.most_colours
     for preset in PRESETS:
-        many = len(run.job.scenario.contacts) > Figure.most_colours
-        if preset in _LEFT_OUT or (preset.endswith("-map") and not many):
+        if preset in _LEFT_OUT or (preset in _FOR_MANY and not many):
             continue
         try:
             figure = preset_figure(preset, run)

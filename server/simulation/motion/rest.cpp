@@ -145,7 +145,6 @@ std::vector<int> Rest::DisturbedBy(int collision) const {
                    [&](double v, double stiffness) { return v * std::sqrt(mass / stiffness); });
 }
 
-// A driven body whose acceleration jumps presses each body on it with m Δẍ.
 std::vector<int> Rest::DisturbedByLoads() const {
   if (!system_.resting) return {};
   std::vector<double> forces(system_.scenario.bodies.size());

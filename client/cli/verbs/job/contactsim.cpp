@@ -33,19 +33,22 @@ void Set(const char* variable, const std::string& value) {
   setenv(variable, value.c_str(), 1);  // No other thread reads the environment.
 }
 
-// The package of an archive or of a build, which is not installed. False if there is none.
-bool SetPath() {
+// Where the package of an archive or of a build is, which is not installed; empty without one.
+fs::path PackageBeside() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const char* beside : {"../python", "../../python"}) {
     const fs::path found = folder / beside;
-    if (!fs::exists(found / "contactsim", error)) continue;
-    const char* path = std::getenv("PYTHONPATH");
-    Set("PYTHONPATH",
-        fs::weakly_canonical(found).string() + (path ? fmt::format(":{}", path) : ""));
-    return true;
+    if (fs::exists(found / "contactsim", error)) return fs::weakly_canonical(found);
   }
-  return false;
+  return {};
+}
+
+void SetPath() {
+  const fs::path package = PackageBeside();
+  if (package.empty()) return;
+  const char* path = std::getenv("PYTHONPATH");
+  Set("PYTHONPATH", package.string() + (path ? fmt::format(":{}", path) : ""));
 }
 
 void SetConnection(const Settings& settings) {
@@ -91,9 +94,9 @@ std::string ContactsimVersion() {
 }
 
 std::string InstallDrawing() {
-  return fmt::format(
-      "apt-get install {} python3-matplotlib",
-      SetPath() ? "python3-grpcio python3-pandas python3-yaml" : "python3-contactsim");
+  return fmt::format("apt-get install {} python3-matplotlib",
+                     PackageBeside().empty() ? "python3-contactsim"
+                                             : "python3-grpcio python3-pandas python3-yaml");
 }
 
 void BecomeContactsim(const std::vector<std::string>& words, const Settings& settings) {

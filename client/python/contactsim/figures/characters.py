@@ -9,7 +9,7 @@ import numpy as np
 
 from ..model import Array
 from .axes import AxisUnit, chosen_unit
-from .figure import Curve, Figure, Kind, Mark, Panel, keep_largest
+from .figure import Curve, Figure, FigureError, Kind, Mark, Panel, keep_largest
 from .look import Look
 from .picture import cells
 from .sources import caption, printable
@@ -104,6 +104,8 @@ def _panel(panel: Panel, columns: int, rows: int, look: Look, crowd: int) -> lis
 
 def _rows(panel: Panel, columns: int, rows: int, look: Look) -> list[str]:
     """Sizes of many curves, some of them named."""
+    if panel.log_y:
+        raise FigureError("--log: characters show maps from 0 on")
     width, curves = columns - _MARGIN - 2, panel.curves
     picture = np.abs(cells(panel, width, max(rows - 5, 6)))
     largest = float(picture.max())

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 FORMATS = {".svg": "svg", ".png": "png", ".pdf": "pdf", ".eps": "eps", ".pgf": "pgf"}
 _MOST_NUMBERS = 100  # More would not be legible in their cells.
-_MOST_TICKS = 20
 _LEVELS = 7
 
 
@@ -65,7 +64,7 @@ def draw_map(map_: HeatMap, ax: Axes, contours: bool = False) -> None:
     if not map_.log and len(known) and (known == np.round(known)).all():
         bar.ax.yaxis.set_major_locator(MaxNLocator("auto", integer=True))
     place_ticks(ax.xaxis, map_.x_texts, 64 // (max(map(len, map_.x_texts)) + 2))
-    place_ticks(ax.yaxis, map_.y_texts, _MOST_TICKS)
+    place_ticks(ax.yaxis, map_.y_texts)
     for (y, x), word in np.ndenumerate(map_.words):
         if word:
             _cover(ax, x, y, word, norm(map_.values[y, x]) if np.isfinite(map_.values[y, x]) else 1)

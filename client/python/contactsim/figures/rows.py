@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 _MOST = 1000  # Of columns and of rows: more are no more than pixels.
 _MOST_LINES = 60  # Of a waterfall: more would be grey.
 _HEIGHT = 2.0  # Of the largest value of a waterfall, in rows.
-_MOST_TICKS = 20
 
 
 def draw_rows(panel: Panel, ax: Axes, look: Look) -> None:
@@ -50,7 +49,7 @@ def _draw_map(panel: Panel, ax: Axes, look: Look) -> None:
     bar.set_label(typeset(unit.label))
     if not panel.log_y:
         scale_axis(bar.ax.yaxis, unit)
-    place_ticks(ax.yaxis, [curve.label for curve in panel.curves], _MOST_TICKS)
+    place_ticks(ax.yaxis, [curve.label for curve in panel.curves])
 
 
 def _scale_of(picture: Array, log: bool) -> tuple[Any, str]:
@@ -83,4 +82,4 @@ def _draw_waterfall(panel: Panel, ax: Axes, look: Look) -> None:
     name, _, end = unit.label.rpartition(" [")
     height = f"{largest / unit.size / _HEIGHT:.3g} {end.rstrip(']')}"
     ax.set_ylabel(f"{name}; a row is {typeset(height)}")
-    place_ticks(ax.yaxis, [curve.label for curve in panel.curves], _MOST_TICKS)
+    place_ticks(ax.yaxis, [curve.label for curve in panel.curves])

@@ -55,7 +55,7 @@ def scale_log_axis(axis: Any, unit: AxisUnit) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def place_ticks(axis: Any, texts: Sequence[str], most: int) -> None:
+def place_ticks(axis: Any, texts: Sequence[str], most: int = 20) -> None:
     """Texts at 0, 1, 2 and so on: every n-th of them, n round, where there is no room for all."""
     least = math.ceil(len(texts) / max(most, 1))
     step = next(part * 10**power for power in range(9) for part in (1, 2, 5)

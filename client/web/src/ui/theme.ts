@@ -53,7 +53,7 @@ export function colourOf(place: number, shown: Theme): string {
 // There is no room for names beside the curves of a narrow page.
 const narrow = matchMedia('(max-width: 560px)');
 
-/** The dashes of a curve, in its widths: other ones for each turn of the palette, on narrow pages for each curve. */
+/** The dashes of a curve, which is 1.6 pixels wide: other ones for each turn of the palette, on narrow pages for each curve. */
 export function dashOf(place: number): number[] {
   const turn = narrow.matches ? place : Math.floor(place / look.palette.length);
   return look.dashes[turn % look.dashes.length]!.map((widths) => 1.6 * widths);
