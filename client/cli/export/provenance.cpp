@@ -62,14 +62,11 @@ Provenance SourceOf(const v1::Job& job) {
           {"revision", job.server_revision()}};
 }
 
-std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix) {
+std::string CommentLines(const Provenance& source) {
   std::string text;
-  for (const Provenance& source : sources) {
-    if (!text.empty()) text.append(prefix.substr(0, prefix.find(' '))).append("\n");
-    for (const auto& [name, value] : source) {
-      // A title may be of more lines; in the second it could become a command.
-      text += fmt::format("{}{}: {}\n", prefix, name, Printable(value, ' '));
-    }
+  for (const auto& [name, value] : source) {
+    // A title may be of more lines; in the second it could become a command.
+    text += fmt::format("# {}: {}\n", name, Printable(value, ' '));
   }
   return text;
 }

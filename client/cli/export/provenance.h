@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,12 +15,11 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 /// and revision, the solver's options with every default spelt out, convergence.
 Provenance ProvenanceOf(const v1::Job& job);
 
-/// The part of ProvenanceOf that fits into a figure: title, job, SHA-256, version, revision.
+/// The part of ProvenanceOf that comments of CSV have: title, job, SHA-256, version, revision.
 Provenance SourceOf(const v1::Job& job);
 
-/// The entries of all sources, each as a line `name: value` after `prefix`. An empty line stands
-/// between two sources.
-std::string Lines(const std::vector<Provenance>& sources, std::string_view prefix);
+/// Each entry as a line `# name: value`.
+std::string CommentLines(const Provenance& source);
 
 /// The solver's options of a scenario that keeps the rules, every default spelt out.
 v1::Solver SolverInFull(const v1::Scenario& scenario);

@@ -48,7 +48,7 @@ DataTable Chosen(const std::string& name, Recording&& recording) {
 void WriteTable(const DataTable& table, const Provenance& source, TableWriter* write,
                 const ExportArguments& arguments) {
   OutputFile file(arguments.file);
-  if (arguments.comments) fmt::print(file.get(), "{}", Lines({source}, "# "));
+  if (arguments.comments) fmt::print(file.get(), "{}", CommentLines(source));
   write(table, file.get(), arguments.precision);
   file.Close();
 }

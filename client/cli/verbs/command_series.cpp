@@ -39,7 +39,7 @@ v1::GetSeriesRequest Request(const std::string& job, const SeriesArguments& argu
 // With --comments the source of the series, in lines that begin with #.
 std::string Comments(Client& client, const std::string& job, const SeriesArguments& arguments) {
   if (!arguments.comments) return "";
-  return Lines({SourceOf(GetJob(client, job))}, "# ");
+  return CommentLines(SourceOf(GetJob(client, job)));
 }
 
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {

@@ -55,7 +55,7 @@ void CheckNames(const v1::Sweep& sweep, const SweepArguments& arguments, const S
 void Print(const v1::Job& job, const SweepCells& cells, const SweepArguments& arguments,
            const Settings& settings) {
   if (settings.output == OutputFormat::kCsv) {
-    fmt::print("{}{}", arguments.comments ? Lines({SourceOf(job)}, "# ") : "",
+    fmt::print("{}{}", arguments.comments ? CommentLines(SourceOf(job)) : "",
                SweepCsv(job.sweep(), cells, arguments.columns.names()));
   } else if (settings.output == OutputFormat::kJson) {
     PrintJson(SweepJson(job, cells), settings);

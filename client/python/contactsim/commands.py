@@ -21,6 +21,7 @@ from .figures.figure import Curve, Kind, Panel, points_csv
 from .figures.look import Look, parse_font, parse_size
 from .figures.overlay import measured_figure, overlay_figure
 from .figures.shown import FEW_SAMPLES, Part, samples_in
+from .figures.sources import printable
 from .figures.sweeps import heat_map, require_map, sweep_line
 from .pages import write_report
 from .paper.damping import ideal
@@ -283,4 +284,4 @@ def _client(arguments: argparse.Namespace) -> Client:
 
 def _tell(text: str) -> None:
     """To the standard error, without what steers a terminal."""
-    print("".join(c if c.isprintable() or c == "\n" else " " for c in text), file=sys.stderr)
+    print(printable(text, "\n"), file=sys.stderr)

@@ -6,6 +6,8 @@ import dataclasses
 import html
 from typing import Sequence
 
+from .figures.sources import printable
+
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;"
     "color:#1a1a1a;background:#fff}"
@@ -29,7 +31,7 @@ class Row:
 
 def escape(text: str) -> str:
     """A text of a user, without what steers a terminal."""
-    return html.escape("".join(c if c.isprintable() or c == "\n" else " " for c in text))
+    return html.escape(printable(text, "\n"))
 
 
 def table(headers: Sequence[str], rows: Sequence[Row]) -> str:

@@ -37,6 +37,7 @@ def lines(sources: Sequence[Source], prefix: str = "") -> str:
     return f"{prefix.rstrip()}\n".join(blocks)
 
 
-def printable(text: str) -> str:
-    """In one line, without what steers a terminal: in a second line it could become a command."""
-    return "".join(c if c.isprintable() else " " for c in text)
+def printable(text: str, kept: str = "") -> str:
+    """Without what steers a terminal, and in one line unless ends of lines are `kept`: in a second line
+    a text of a user could become a command."""
+    return "".join(c if c.isprintable() or c in kept else " " for c in text)
