@@ -181,22 +181,24 @@ double FirstGuess::SwingAhead(const Cycle& cycle, double effective_mass,
 double FirstGuess::LoadChange(const Contact& contact, double time) const {
   const double now = motion_.time();
   double change = 0;
-  for (const Load& load : scenario_.loads) {
-    const double sign = load.body == contact.left ? 1 : load.body == contact.right ? -1 : 0;
-    if (sign == 0) continue;
-    const auto at = [&](double t) {
-      return load.begin <= t && t < load.end ? LoadForce(load, t) : 0;
-    };
-    change += sign * (at(now + time) - at(now)) / scenario_.bodies[At(load.body)].mass;
-  }
-  for (const Drive& drive : scenario_.drives) {
-    const double sign = drive.body == contact.left ? 1 : drive.body == contact.right ? -1 : 0;
-    if (sign == 0) continue;
-    const auto at = [&](double t) {
-      return drive.begin <= t && t < drive.end ? MotionAt(drive, t).acceleration : 0;
-    };
-    change += sign * (at(now + time) - at(now));
-  }
+  const auto see = [&](const auto& pieces, auto value, auto mass) {
+    for (const auto& row : pieces.rows()) {
+      const int body = row.front().body;
+      const double sign = body == contact.left ? 1 : body == contact.right ? -1 : 0;
+      if (sign == 0) continue;
+      const auto at = [&](double t) {
+        const auto* piece = pieces.At(row, t);
+        return piece == nullptr ? 0 : value(*piece, t);
+      };
+      change += sign * (at(now + time) - at(now)) / mass(body);
+    }
+  };
+  see(motion_.equations().loads(), LoadForce,
+      [this](int body) { return scenario_.bodies[At(body)].mass; });
+  see(
+      motion_.equations().drives(),
+      [](const Drive& drive, double t) { return MotionAt(drive, t).acceleration; },
+      [](int) { return 1.0; });
   return change;
 }
 

@@ -269,12 +269,17 @@ double Pass::SlowestTurn() const {
 // turn them where it ends.
 bool Pass::Creeps() const {
   double since = idle_since_;
-  const auto see = [&](const auto& piece, double slope) {
-    if (slope == 0 || piece.end == kNever || piece.begin > motion_.time()) return;
-    since = std::max(since, piece.end);
+  const auto see = [&](const auto& pieces, auto slope) {
+    for (const auto& row : pieces.rows()) {
+      const auto begun = pieces.Begun(row, motion_.time());
+      const auto ramp = std::find_if(begun.rbegin(), begun.rend(), [slope](const auto& piece) {
+        return piece.*slope != 0 && piece.end != kNever;
+      });
+      if (ramp != begun.rend()) since = std::max(since, ramp->end);
+    }
   };
-  for (const Load& load : scenario_.loads) see(load, load.slope);
-  for (const Drive& drive : scenario_.drives) see(drive, drive.jerk);
+  see(motion_.equations().loads(), &Load::slope);
+  see(motion_.equations().drives(), &Drive::jerk);
   const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
   return motion_.time() - since > patience * SlowestTurn() + kPeriods * longest_period_;
 }

@@ -25,7 +25,19 @@ constexpr int kMostRetries = 30;
 // Coarser passes miss events.
 constexpr double kCoarsest = 1e-6;
 
+bool Swings(const Scenario& scenario) {
+  const auto is_sine = [](const auto& piece) { return piece.amplitude != 0; };
+  return std::ranges::any_of(scenario.loads, is_sine) ||
+         std::ranges::any_of(scenario.drives, is_sine);
+}
+
 }  // namespace
+
+Problem::Problem(const Scenario& scenario, Motion& motion, Observer& observer)
+    : scenario_(scenario),
+      motion_(motion),
+      pass_(scenario, motion, observer, groups),
+      swings_(Swings(scenario)) {}
 
 void Problem::Begin(const State& start, double end, const std::stop_token& stop,
                     std::int64_t step_limit) {
@@ -83,11 +95,8 @@ double Problem::MostMu(const GroupSight& g) const {
   const double duration = g.end_time - g.start_time;
   const double unit = std::pow(g.depth, contact.exponent) * duration /
                       motion_.equations().effective_mass(g.id.contact);
-  const auto swings = [](const auto& piece) { return piece.amplitude != 0; };
-  const bool driven =
-      std::ranges::any_of(scenario_.loads, swings) || std::ranges::any_of(scenario_.drives, swings);
   const bool pressed = !scenario_.loads.empty() || !scenario_.drives.empty();
-  const double felt = driven ? kFeltWhenDriven : pressed ? kFeltWhenPressed : kFelt;
+  const double felt = swings_ ? kFeltWhenDriven : pressed ? kFeltWhenPressed : kFelt;
   return (g.id.place > 1 ? felt : kFeltAtFirst) / g.restitution_in / unit;
 }
 

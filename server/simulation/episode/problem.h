@@ -14,8 +14,7 @@ namespace contact {
 /// slopes, in one pass through the motion.
 class Problem {
  public:
-  Problem(const Scenario& scenario, Motion& motion, Observer& observer)
-      : scenario_(scenario), motion_(motion), pass_(scenario, motion, observer, groups) {}
+  Problem(const Scenario& scenario, Motion& motion, Observer& observer);
 
   /// Passes begin at `start`, which must outlive them. The run ends at `end` [s].
   void Begin(const State& start, double end, const std::stop_token& stop, std::int64_t step_limit);
@@ -66,6 +65,7 @@ class Problem {
   const Scenario& scenario_;
   Motion& motion_;
   Pass pass_;
+  const bool swings_;  // Whether a load or a drive is a sine.
   const State* start_ = nullptr;
   State near_;              // Shortly before the last front, if
   std::vector<Held> held_;  // all that begins before is still this.

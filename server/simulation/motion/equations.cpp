@@ -22,7 +22,9 @@ ActiveContact::Force ActiveContact::General(double deformation, double rate) con
 Equations::Equations(const Scenario& scenario)
     : StateLayout(static_cast<int>(scenario.bodies.size()),
                   static_cast<int>(scenario.contacts.size())),
-      scenario_(scenario) {
+      scenario_(scenario),
+      loads_(scenario.loads),
+      drives_(scenario.drives) {
   std::vector<double> positions;
   for (const Body& body : scenario.bodies) {
     positions.push_back(body.position);
@@ -65,12 +67,12 @@ Sides Equations::SidesOf(int left, int right) const {
 double Equations::SelectLoads(double time, const double* u) {
   const auto select = [time](const auto& pieces, auto* selected) {
     selected->clear();
-    for (const auto& piece : pieces) {
-      if (piece.begin <= time && time < piece.end) selected->push_back(piece);
+    for (const auto& row : pieces.rows()) {
+      if (const auto* piece = pieces.At(row, time)) selected->push_back(*piece);
     }
   };
-  select(scenario_.loads, &acting_);
-  select(scenario_.drives, &driving_);
+  select(loads_, &acting_);
+  select(drives_, &driving_);
   selected_ = time;
   driven_from_.clear();
   for (const Drive& drive : driving_) {

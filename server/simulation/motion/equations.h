@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/laws/power.h"
+#include "simulation/model/piece_rows.h"
 #include "simulation/model/scenario.h"
 #include "simulation/motion/state_layout.h"
 
@@ -151,6 +152,9 @@ class Equations : public StateLayout {
   /// shorter way.
   void Prepare();
 
+  /// All loads, and all drives, by their times.
+  const PieceRows<Load>& loads() const { return loads_; }
+  const PieceRows<Drive>& drives() const { return drives_; }
   /// The loads that act.
   const std::vector<Load>& acting() const { return acting_; }
   /// Adds to accelerations by how much those of the selected loads and drives differ between two
@@ -201,6 +205,8 @@ class Equations : public StateLayout {
   }
 
   const Scenario& scenario_;
+  const PieceRows<Load> loads_;
+  const PieceRows<Drive> drives_;
   std::vector<double> base_;
   // Stretch of each support at the base [m]: with u beside it forces keep their digits.
   std::vector<double> stretches_;

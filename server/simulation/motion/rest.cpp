@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "simulation/laws/power.h"
@@ -148,10 +149,13 @@ std::vector<int> Rest::DisturbedBy(int collision) const {
 std::vector<int> Rest::DisturbedByLoads() const {
   if (!system_.resting) return {};
   std::vector<double> forces(system_.scenario.bodies.size());
-  for (const Load& load : system_.scenario.loads) {
-    const double t = system_.time;
-    if (load.begin == t) forces[At(load.body)] += LoadForce(load, t);
-    if (load.end == t) forces[At(load.body)] -= LoadForce(load, t);
+  const double t = system_.time;
+  for (const std::span<const Load> row : system_.equations.loads().rows()) {
+    const auto begun = PieceRows<Load>::Begun(row, t);
+    for (const Load& load : begun.last(std::min<std::size_t>(begun.size(), 2))) {
+      if (load.begin == t) forces[At(load.body)] += LoadForce(load, t);
+      if (load.end == t) forces[At(load.body)] -= LoadForce(load, t);
+    }
   }
   for (double& force : forces) force = std::abs(force);
   return Disturbed(Spread(std::move(forces)),
