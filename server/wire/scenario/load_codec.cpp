@@ -2,13 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "wire/scenario/frequency.h"
+#include "wire/scenario/time_table.h"
 
 namespace contact {
 namespace {
+
+// Pieces of loads that tables which come again may make, so that a period of a nanosecond does not
+// take all memory: these take 64 MB. Each is a step of the run at least.
+constexpr int kMostPieces = 1'000'000;
+// Part of the last time of a table by which sums of decimal times may miss the period.
+constexpr double kRoundOff = 1e-14;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+using Forces = v1::Load::Table;
+constexpr TableFields<Forces> kForces{&Forces::Point::force_n, Forces::Point::kForceNFieldNumber,
+                                      &Forces::forces_n, Forces::kForcesNFieldNumber};
 
 double DecodeAcceleration(const v1::Load& load, const Rules& rules) {
   return rules.In("gravity").Read(load.gravity(),
@@ -99,39 +114,59 @@ class LoadDecoder {
     return load;
   }
 
-  void AddTable(const v1::Load::Table& table, const Rules& rules) {
-    const v1::FieldRule& rule = RuleOf<v1::Load::Table>(v1::Load::Table::kPointsFieldNumber);
-    const int count = table.points_size();
-    if (count < rule.min_entries() || count > rule.max_entries()) {
-      rules.Break("points", fmt::format("holds {}; must hold {} to {}", count, rule.min_entries(),
-                                        rule.max_entries()));
+  void AddTable(const Forces& message, const Rules& rules) {
+    const TimeTable table = ReadTimeTable(message, kForces, rules);
+    if (!message.has_period_s()) return AddOnce(table, 0, kNever);
+    const double period = rules.Read(message, Forces::kPeriodSFieldNumber);
+    const Range& periods_allowed = NumberOf<Forces>(Forces::kPeriodSFieldNumber).range;
+    if (table.empty() || !periods_allowed.Contains(period)) return;
+    const double length = table.times.back() - table.times.front();
+    const double touching = kRoundOff * table.times.back();
+    if (period < length - touching) {
+      rules.Break("period_s", fmt::format("is {}; must be at least {}, from the first point to the "
+                                          "last",
+                                          period, length));
       return;
     }
-    for (int i = 0; i < count && !rules.full(); ++i) {
-      using Point = v1::Load::Table::Point;
-      const Point& point = table.points(i);
-      const Rules here = rules.In("points", i);
-      here.Check<Point>(Point::kTimeSFieldNumber, point.time_s());
-      here.Check<Point>(Point::kForceNFieldNumber, point.force_n());
-      if (i > 0) AddPiece(table.points(i - 1), point, here);
+    const double periods = PeriodsOf(table, period);
+    if (!HasRoomFor(periods * static_cast<double>(table.times.size() - 1), period, rules)) return;
+    for (int i = 0; i < static_cast<int>(periods); ++i) {
+      const double end = period <= length + touching ? (i + 1) * period : kNever;
+      AddOnce(table, i * period, table.times.front() + end);
     }
   }
 
-  // `rules` are for the point `to`.
-  void AddPiece(const v1::Load::Table::Point& from, const v1::Load::Table::Point& to,
-                const Rules& rules) {
-    if (to.time_s() <= from.time_s()) {
-      rules.Break(
-          "time_s",
-          fmt::format("is {}, which is not after the {} before", to.time_s(), from.time_s()),
-          "points follow one another in time");
-      return;
+  // How often a table comes until the end of the run, at least once.
+  double PeriodsOf(const TimeTable& table, double period) const {
+    const Range& times = NumberOf<v1::Scenario>(v1::Scenario::kEndTimeSFieldNumber).range;
+    if (!times.Contains(message_.end_time_s())) return 1;
+    return std::max(std::ceil((message_.end_time_s() - table.times.front()) / period), 1.0);
+  }
+
+  bool HasRoomFor(double pieces, double period, const Rules& rules) const {
+    if (static_cast<double>(loads_->size()) + pieces <= kMostPieces) return true;
+    rules.Break(
+        "period_s",
+        fmt::format("is {}, with which all tables have {:.0f} pieces until end_time_s; must "
+                    "have at most {}",
+                    period, static_cast<double>(loads_->size()) + pieces, kMostPieces),
+        "give fewer points, an earlier end_time_s, or a sine");
+    return false;
+  }
+
+  // Adds the pieces of a table that begins `delay` later than it says. Its last piece does not go
+  // on past `next`, where the table begins again; at `next`, to round-off, it ends in any case.
+  void AddOnce(const TimeTable& table, double delay, double next) {
+    for (std::size_t i = 1; i < table.times.size(); ++i) {
+      const double begin = table.times[i - 1], end = table.times[i];
+      Load piece{.body = body_,
+                 .begin = begin + delay,
+                 .end = end + delay,
+                 .constant = table.values[i - 1],
+                 .slope = (table.values[i] - table.values[i - 1]) / (end - begin)};
+      if (i + 1 == table.times.size() && next != kNever) piece.end = next;
+      if (piece.begin < piece.end) Add(piece);
     }
-    Add({.body = body_,
-         .begin = from.time_s(),
-         .end = to.time_s(),
-         .constant = from.force_n(),
-         .slope = (to.force_n() - from.force_n()) / (to.time_s() - from.time_s())});
   }
 
   const v1::Scenario& message_;

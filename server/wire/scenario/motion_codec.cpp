@@ -8,54 +8,30 @@
 
 #include "simulation/model/derived.h"
 #include "wire/scenario/frequency.h"
+#include "wire/scenario/time_table.h"
 
 namespace contact {
 namespace {
 
 using v1::Motion;
+using Positions = Motion::PositionTable;
+using Velocities = Motion::VelocityTable;
+using Accelerations = Motion::AccelerationTable;
 
-// What a table says, at instants that follow one another.
-struct Series {
-  std::vector<double> times, values;
-};
-
-// Reads the points of a table, of which the value is the number with this field number. Empty if
-// they are too few or too many, or do not follow one another.
-template <class Table>
-Series ReadPoints(const Table& table, double (Table::Point::*value)() const, int number,
-                  const Rules& rules) {
-  using Point = typename Table::Point;
-  const v1::FieldRule& rule = RuleOf<Table>(Table::kPointsFieldNumber);
-  const int count = table.points_size();
-  if (count < rule.min_entries() || count > rule.max_entries()) {
-    rules.Break("points", fmt::format("holds {}; must hold {} to {}", count, rule.min_entries(),
-                                      rule.max_entries()));
-    return {};
-  }
-  Series read;
-  bool ordered = true;
-  for (int i = 0; i < count && !rules.full(); ++i) {
-    const Point& point = table.points(i);
-    const Rules here = rules.In("points", i);
-    here.Check<Point>(Point::kTimeSFieldNumber, point.time_s());
-    here.Check<Point>(number, (point.*value)());
-    if (i > 0 && !(point.time_s() > read.times.back())) {
-      here.Break(
-          "time_s",
-          fmt::format("is {}, which is not after the {} before", point.time_s(), read.times.back()),
-          "points follow one another in time");
-      ordered = false;
-    }
-    read.times.push_back(point.time_s());
-    read.values.push_back((point.*value)());
-  }
-  const bool whole = std::ssize(read.times) == count;
-  return ordered && whole ? read : Series();
-}
+constexpr TableFields<Positions> kPositions{
+    &Positions::Point::position_m, Positions::Point::kPositionMFieldNumber, &Positions::positions_m,
+    Positions::kPositionsMFieldNumber};
+constexpr TableFields<Velocities> kVelocities{
+    &Velocities::Point::velocity_m_per_s, Velocities::Point::kVelocityMPerSFieldNumber,
+    &Velocities::velocities_m_per_s, Velocities::kVelocitiesMPerSFieldNumber};
+constexpr TableFields<Accelerations> kAccelerations{
+    &Accelerations::Point::acceleration_m_per_s2,
+    Accelerations::Point::kAccelerationMPerS2FieldNumber, &Accelerations::accelerations_m_per_s2,
+    Accelerations::kAccelerationsMPerS2FieldNumber};
 
 // The slopes at three or more points of parabolas through each and its neighbours; of two, the
 // slope of their line.
-std::vector<double> Slopes(const Series& s) {
+std::vector<double> Slopes(const TimeTable& s) {
   const std::size_t n = s.times.size();
   const auto chord = [&](std::size_t i) {
     return (s.values[i + 1] - s.values[i]) / (s.times[i + 1] - s.times[i]);
@@ -104,7 +80,7 @@ class Pieces {
 };
 
 // Hermite's cubic between one point and the next; each begins at its point, whatever sums left.
-std::vector<Drive> OfPositions(const Series& s, double origin) {
+std::vector<Drive> OfPositions(const TimeTable& s, double origin) {
   const std::vector<double> slopes = Slopes(s);
   std::vector<Drive> pieces;
   if (s.times[0] > 0) {
@@ -127,7 +103,7 @@ std::vector<Drive> OfPositions(const Series& s, double origin) {
   return pieces;
 }
 
-std::vector<Drive> OfVelocities(const Series& s, double origin) {
+std::vector<Drive> OfVelocities(const TimeTable& s, double origin) {
   Pieces pieces(origin, s.values[0]);
   pieces.Add(s.times[0], 0, 0);
   for (std::size_t i = 0; i + 1 < s.times.size(); ++i) {
@@ -136,7 +112,7 @@ std::vector<Drive> OfVelocities(const Series& s, double origin) {
   return pieces.Finish();
 }
 
-std::vector<Drive> OfAccelerations(const Series& s, double origin, double velocity) {
+std::vector<Drive> OfAccelerations(const TimeTable& s, double origin, double velocity) {
   Pieces pieces(origin, velocity);
   pieces.Add(s.times[0], 0, 0);
   for (std::size_t i = 0; i + 1 < s.times.size(); ++i) {
@@ -163,9 +139,6 @@ Drive OfSine(const Motion::Sine& sine, double origin, const Rules& rules) {
 }  // namespace
 
 std::vector<Drive> DecodeMotion(const Motion& motion, double origin, const Rules& rules) {
-  const auto table = [](const Series& read, auto make) {
-    return read.times.empty() ? std::vector<Drive>() : make(read);
-  };
   switch (motion.kind_case()) {
     case Motion::kUniform: {
       const double velocity =
@@ -175,25 +148,21 @@ std::vector<Drive> DecodeMotion(const Motion& motion, double origin, const Rules
     case Motion::kSine:
       return {OfSine(motion.sine(), origin, rules.In("sine"))};
     case Motion::kPositionTable: {
-      using Point = Motion::PositionTable::Point;
-      return table(ReadPoints(motion.position_table(), &Point::position_m,
-                              Point::kPositionMFieldNumber, rules.In("position_table")),
-                   [&](const Series& s) { return OfPositions(s, origin); });
+      const TimeTable table =
+          ReadTimeTable(motion.position_table(), kPositions, rules.In("position_table"));
+      return table.empty() ? std::vector<Drive>() : OfPositions(table, origin);
     }
     case Motion::kVelocityTable: {
-      using Point = Motion::VelocityTable::Point;
-      return table(ReadPoints(motion.velocity_table(), &Point::velocity_m_per_s,
-                              Point::kVelocityMPerSFieldNumber, rules.In("velocity_table")),
-                   [&](const Series& s) { return OfVelocities(s, origin); });
+      const TimeTable table =
+          ReadTimeTable(motion.velocity_table(), kVelocities, rules.In("velocity_table"));
+      return table.empty() ? std::vector<Drive>() : OfVelocities(table, origin);
     }
     case Motion::kAccelerationTable: {
-      using Point = Motion::AccelerationTable::Point;
       const Rules here = rules.In("acceleration_table");
       const double velocity = here.Read(motion.acceleration_table(),
                                         Motion::AccelerationTable::kVelocityMPerSFieldNumber);
-      return table(ReadPoints(motion.acceleration_table(), &Point::acceleration_m_per_s2,
-                              Point::kAccelerationMPerS2FieldNumber, here),
-                   [&](const Series& s) { return OfAccelerations(s, origin, velocity); });
+      const TimeTable table = ReadTimeTable(motion.acceleration_table(), kAccelerations, here);
+      return table.empty() ? std::vector<Drive>() : OfAccelerations(table, origin, velocity);
     }
     case Motion::KIND_NOT_SET:
       break;
