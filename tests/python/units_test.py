@@ -3,7 +3,8 @@
 import unittest
 
 from contact.v1 import scenario_pb2
-from contactsim.units import factor, field_at, steps_of, unit_of, unit_of_metric
+from contactsim.units import (factor, field_at, in_si, steps_of, unit_of, unit_of_metric,
+                              usual_units)
 
 
 class UnitsTest(unittest.TestCase):
@@ -36,6 +37,22 @@ class UnitsTest(unittest.TestCase):
             self.assertAlmostEqual(factor(unit, si), value, places=15)
         for unit, si in (("m", "s"), ("m", "m/s"), ("inch", "m"), ("mmm", "m")):
             self.assertIsNone(factor(unit, si))
+
+    def test_units_of_other_systems_are_exact(self):
+        for unit, si, value in (("g", "m/s^2", 9.80665), ("gn", "m/s²", 9.80665),
+                                ("mm/s2", "m/s^2", 1e-3), ("ft/s^2", "m/s^2", 0.3048),
+                                ("mph", "m/s", 0.44704), ("in", "m", 0.0254),
+                                ("kgf", "N", 9.80665), ("lbf", "N", 4.4482216152605)):
+            self.assertEqual(factor(unit, si), value, unit)
+        self.assertIsNone(factor("g", "m/s"))
+        self.assertIsNone(factor("m/s", "m/s^2"))
+        for si in ("s", "m", "m/s", "m/s^2", "N"):
+            for unit in usual_units(si).split(", "):
+                self.assertIsNotNone(factor(unit, si), unit)
+
+    def test_milliseconds_are_the_same_numbers_as_seconds(self):
+        for i in range(1000):
+            self.assertEqual(in_si(float(i), 1e-3), i / 1000)
 
 
 if __name__ == "__main__":

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import functools
 import html
 import os
 import re
-from typing import TYPE_CHECKING, Any, Mapping, Union
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Union
 
 import numpy as np
 import pandas as pd
 
 from .model import Array
-from .units import factor
+from .tables import Table, is_time_name
+from .units import factor, in_si
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -91,7 +93,7 @@ def compare_measured(result: Result, measured: MeasuredLike, *,
     of least squares in the range `fit_shift_s`. Columns that are no channels are left out. Raises
     ValueError for what does not fit.
     """
-    signals = _signals(result, _frame(measured), map or {})
+    signals = _signals(result, _columns(measured), map or {})
     shift = _fit(result, signals, fit_shift_s) if fit_shift_s else shift_s
     rows = []
     for signal in signals:
@@ -102,12 +104,17 @@ def compare_measured(result: Result, measured: MeasuredLike, *,
     return SignalComparison(result, signals, shift, table)
 
 
-def _frame(measured: MeasuredLike) -> pd.DataFrame:
-    """The data with its times as a column."""
+def _columns(measured: MeasuredLike) -> dict[str, Callable[[], Array]]:
+    """The columns of the data by their headers, those of times with them, read when they are used."""
     if not isinstance(measured, pd.DataFrame):
-        # sep=None: commas, semicolons or tabs.
-        return pd.read_csv(measured, comment="#", sep=None, engine="python", skipinitialspace=True)
-    return measured if measured.index.name is None else measured.reset_index()
+        table = Table(measured)
+        headers = [c.header if c.header.endswith((")", "]")) or not c.unit else
+                   f"{c.name} [{c.unit}]" for c in table.columns]
+        return {header: functools.partial(table.numbers, i, True)
+                for i, header in enumerate(headers)}
+    frame = measured if measured.index.name is None else measured.reset_index()
+    return {str(header): functools.partial(frame[header].to_numpy, float, na_value=np.nan)
+            for header in frame.columns}
 
 
 def _meaning(header: str, map_: Mapping[str, str]) -> tuple[str, str]:
@@ -131,24 +138,24 @@ def _factor(header: str, unit: str, si: str) -> float:
     return found
 
 
-def _signals(result: Result, frame: pd.DataFrame, map_: Mapping[str, str]) -> list[Signal]:
-    meanings = {str(header): _meaning(str(header), map_) for header in frame.columns}
+def _signals(result: Result, given: dict[str, Callable[[], Array]],
+             map_: Mapping[str, str]) -> list[Signal]:
+    meanings = {header: _meaning(header, map_) for header in given}
     channels = {header: _channel(result, name) for header, (name, _) in meanings.items()}
-    columns = {header: frame[given].to_numpy(float, na_value=np.nan)
-               for header, given in zip(meanings, frame.columns)
-               if _is_time(meanings[header][0]) or channels[header]}
-    clock = next((header for header in columns if _is_time(meanings[header][0])), None)
+    columns = {header: numbers() for header, numbers in given.items()
+               if is_time_name(meanings[header][0]) or channels[header]}
+    clock = next((header for header in columns if is_time_name(meanings[header][0])), None)
     if clock is None:
         raise ValueError(f"there is no column time among {', '.join(meanings)}; "
                          "map={HEADER: 'time'} names it")
-    times = columns[clock] * _factor(clock, meanings[clock][1], "s")
+    times = in_si(columns[clock], _factor(clock, meanings[clock][1], "s"))
     signals = []
     for header in columns:
         channel = channels[header]
         if header == clock or channel is None:
             continue
         unit = result.units[channel]
-        values = columns[header] * _factor(header, meanings[header][1], unit)
+        values = in_si(columns[header], _factor(header, meanings[header][1], unit))
         good = np.isfinite(times) & np.isfinite(values)
         signals.append(Signal(channel, unit, times[good], values[good]))
     _require_channels(result, map_)
@@ -162,14 +169,10 @@ def _signals(result: Result, frame: pd.DataFrame, map_: Mapping[str, str]) -> li
 def _require_channels(result: Result, map_: Mapping[str, str]) -> None:
     for mapped in map_.values():
         name = _meaning(mapped, {})[0]
-        if not _is_time(name) and _channel(result, name) is None:
+        if not is_time_name(name) and _channel(result, name) is None:
             near = difflib.get_close_matches(name, result.units, 1)
             hint = f"did you mean {near[0]!r}?" if near else ", ".join(result.units)
             raise ValueError(f"{result.name} has no channel {name!r}; {hint}")
-
-
-def _is_time(name: str) -> bool:
-    return name.lower() in ("time", "t")
 
 
 def _channel(result: Result, name: str) -> str | None:

@@ -14,6 +14,7 @@ from contact.v1 import scenario_pb2
 from google.protobuf.descriptor import Descriptor, EnumDescriptor, FieldDescriptor
 
 from .errors import InvalidScenario, Violation
+from .file_tables import FILE_KEYS, may_be_in_file, read_into
 from .model import contact_names
 from .units import steps_of
 
@@ -26,7 +27,8 @@ def load_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None = No
                   set: Mapping[str, Any] | None = None) -> scenario_pb2.Scenario:
     """The scenario of a dict, of a YAML or JSON file, of a template, or the message itself.
 
-    A text names a file, or else one of `templates()`. `variables` are other values for those that
+    A text names a file, or else one of `templates()`. A table of a load or motion may be in a file
+    of its own, `{"file": "measured.csv", "unit": "kN"}`, from the folder of the scenario's file. `variables` are other values for those that
     the file declares and uses as `${name}`. `set` has values by the path of their fields, such as
     `{"contacts[0].restitution": 0.7}`; in brackets may stand the name of a body or contact, or `*`
     for every entry. The message that is given is not changed.
@@ -42,7 +44,7 @@ def read_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None,
                   set_: Mapping[str, Any] | None
                   ) -> tuple[scenario_pb2.Scenario, dict[str, list[str]]]:
     """As load_scenario, and the fields of each variable: those whose whole value it is."""
-    reader = _Reader()
+    reader = _Reader(_folder(source))
     scenario = scenario_pb2.Scenario()
     if isinstance(source, scenario_pb2.Scenario):
         if variables:
@@ -64,6 +66,13 @@ def templates() -> list[str]:
     """The names of the scenarios that come with the package, for load_scenario and run."""
     return sorted(path.stem for path in _template_folder().glob("*.yaml")
                   if not path.stem.endswith("-sweep"))
+
+
+def _folder(source: ScenarioLike) -> pathlib.Path:
+    """Where the files are that a scenario names: beside its own file, else where we are."""
+    if isinstance(source, (scenario_pb2.Scenario, Mapping)) or not pathlib.Path(source).is_file():
+        return pathlib.Path()
+    return pathlib.Path(source).parent
 
 
 def _template_folder() -> pathlib.Path:
@@ -89,7 +98,8 @@ def _document(source: str | os.PathLike[str]) -> Any:
 class _Reader:
     """Fills a message and notes every mistake instead of stopping at the first."""
 
-    def __init__(self) -> None:
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder = folder
         self.violations: list[Violation] = []
         self.fields: dict[str, list[str]] = {}  #: Of each variable those whose whole value it is.
 
@@ -131,6 +141,9 @@ class _Reader:
             return
         if not isinstance(source, Mapping):
             return self._refuse(path, "a mapping", source)
+        if "file" in source and may_be_in_file(message.DESCRIPTOR):
+            self.violations += read_into(message, source, path, self.folder)
+            source = {key: value for key, value in source.items() if key not in FILE_KEYS}
         for name, value in source.items():
             field = message.DESCRIPTOR.fields_by_name.get(name)
             where = f"{path}.{name}" if path else str(name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from contact.v1 import field_rules_pb2, job_pb2
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
@@ -17,7 +18,15 @@ _PICKS = ("first", "last", "max", "min")  #: What a metric takes of the entries 
 
 _PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3,
              "M": 1e6, "G": 1e9}
-_TIMES = {"min": 60.0, "h": 3600.0}
+_GRAVITY = 9.80665
+#: Units beside the SI unit and its prefixes, all exact by definition.
+_OTHERS = {"s": {"min": 60.0, "h": 3600.0}, "m": {"in": 0.0254, "ft": 0.3048},
+           "N": {"kgf": _GRAVITY, "kp": _GRAVITY, "lbf": 4.4482216152605},
+           "m/s": {"mph": 0.44704, "kph": 1 / 3.6},
+           "m/s^2": {"g": _GRAVITY, "gn": _GRAVITY, "G": _GRAVITY, "mg": _GRAVITY / 1000}}
+_USUAL = {"s": "s, ms, us, min, h", "m": "m, mm, cm, um, in, ft",
+          "m/s": "m/s, mm/s, km/h, mph, ft/s", "m/s^2": "m/s^2, mm/s^2, g, ft/s^2",
+          "N": "N, kN, mN, MN, kgf, lbf"}
 
 
 def steps_of(path: str) -> list[tuple[str, str]]:
@@ -67,18 +76,49 @@ def unit_of_metric(metric: str) -> str:
 
 def factor(unit: str, si: str) -> float | None:
     """What a number in `unit` is multiplied with to be in `si`; None if that cannot be."""
-    parts, base = unit.split("/"), si.split("/")
-    factors = [_simple(part, of) for part, of in zip(parts, base)]
-    if len(parts) != len(base) or None in factors:
-        return None
-    known = [value for value in factors if value is not None]
-    return known[0] / known[1] if len(known) == 2 else known[0]
+    unit, si = _with_power(unit), _with_power(si)
+    whole = _simple(unit, si)
+    parts, base = unit.partition("/"), si.partition("/")
+    if whole is not None or not parts[1] or not base[1]:
+        return whole
+    above, below = _simple(parts[0], base[0]), _below(parts[2], base[2])
+    return None if above is None or below is None else above / below
+
+
+def in_si(values: Any, factor_: float) -> Any:
+    """Numbers in a unit of this factor in SI: divided where it is 1e-3 or alike, which is exact."""
+    inverse = 1 / factor_
+    return values / inverse if inverse == round(inverse) else values * factor_
+
+
+def usual_units(si: str) -> str:
+    """The units that people know of the quantity with this SI unit, for messages."""
+    return _USUAL.get(_with_power(si), si)
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit of some quantity of loads and motions."""
+    return any(factor(text, si) is not None for si in _USUAL)
+
+
+def _with_power(unit: str) -> str:
+    """`m/s²` and `m/s2` as `m/s^2`."""
+    unit = unit.replace("²", "^2").replace("**2", "^2")
+    return unit[:-1] + "^2" if unit.endswith("/s2") else unit
 
 
 def _simple(unit: str, si: str) -> float | None:
-    if si == "s" and unit in _TIMES:
-        return _TIMES[unit]
     if unit == si:
         return 1.0
+    if unit in _OTHERS.get(si, {}):
+        return _OTHERS[si][unit]
     known = si in ("s", "m", "N") and unit.endswith(si)
     return _PREFIXES.get(unit.removesuffix(si)) if known else None
+
+
+def _below(unit: str, si: str) -> float | None:
+    """The factor of what stands below a quotient, which may be a square."""
+    if unit.endswith("^2") != si.endswith("^2"):
+        return None
+    root = _simple(unit.removesuffix("^2"), si.removesuffix("^2"))
+    return root**2 if root is not None and unit.endswith("^2") else root
