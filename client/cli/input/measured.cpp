@@ -4,132 +4,189 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/trim.hpp>
-#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/base/scalar.h"
 #include "cli/base/text_file.h"
-#include "cli/input/diagnostic.h"
+#include "cli/base/unit.h"
+#include "cli/input/table_dialect.h"
 
 namespace contact::cli {
 namespace {
 
-constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
-constexpr std::size_t kMostMistakes = 20;
+constexpr std::size_t kMostBytes = 512 << 20;
 
-// A field of a line and the place where it begins, from 1.
-struct Field {
-  std::string text;
-  int column = 1;
-};
+std::string WithoutBrackets(const std::string& text) {
+  const bool bracketed = text.size() > 2 && ((text.front() == '[' && text.back() == ']') ||
+                                             (text.front() == '(' && text.back() == ')'));
+  return bracketed ? boost::trim_copy(text.substr(1, text.size() - 2)) : text;
+}
 
-// The fields of a line. A field in quotes may have separators; "" in it is one quote.
-std::vector<Field> FieldsOf(const std::string& line, char separator) {
-  std::vector<Field> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back().text += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == separator && !quoted) {
-      fields.push_back({"", static_cast<int>(i) + 2});
+// Headers, in which what stands in brackets belongs to what is before it.
+std::vector<std::string> HeadersOf(const std::string& line, char separator) {
+  std::vector<std::string> headers;
+  for (const TableField& field : FieldsOf(line, separator)) {
+    const bool unit = field.text.starts_with('[') || field.text.starts_with('(');
+    if (separator == ' ' && unit && !headers.empty() && !IsUnit(WithoutBrackets(headers.back()))) {
+      headers.back() += " " + field.text;
     } else {
-      fields.back().text += line[i];
+      headers.push_back(field.text);
     }
   }
-  for (Field& field : fields) boost::trim(field.text);
-  return fields;
+  return headers;
 }
 
-// The separator that the header has most often.
-char SeparatorOf(const std::string& header) {
-  return *std::ranges::max_element(std::string_view(",;\t"), {},
-                                   [&header](char c) { return std::ranges::count(header, c); });
+// Whether a row below the headers has units. Some of them may be of other quantities.
+bool AreUnits(const std::vector<std::string>& fields) {
+  return std::ranges::any_of(fields,
+                             [](const auto& field) { return IsUnit(WithoutBrackets(field)); }) &&
+         std::ranges::all_of(fields, [](const auto& field) { return field.size() < 16; });
 }
-
-class TableReader {
- public:
-  explicit TableReader(std::string source) : table_{std::move(source)} {}
-
-  MeasuredTable Read(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) {
-      ++line_;
-      if (boost::trim_copy(line).empty() || line.starts_with('#')) continue;
-      table_.columns.empty() ? ReadHeader(line) : ReadRow(line);
-      if (mistakes_.size() >= kMostMistakes) break;
-    }
-    if (table_.columns.empty() || table_.columns.front().values.empty()) {
-      Add(1, "has no rows", "a header and rows of numbers are expected");
-    }
-    RequireNone(mistakes_);
-    return std::move(table_);
-  }
-
- private:
-  void ReadHeader(const std::string& line) {
-    separator_ = SeparatorOf(line);
-    for (const Field& field : FieldsOf(line, separator_)) {
-      table_.columns.push_back(ColumnWithUnit(field.text));
-    }
-    if (table_.columns.size() == 1) {
-      Add(1, "has one column", "columns are separated by commas, semicolons or tabs");
-    }
-  }
-
-  void ReadRow(const std::string& line) {
-    const std::vector<Field> fields = FieldsOf(line, separator_);
-    if (fields.size() > table_.columns.size()) {
-      return Add(fields[table_.columns.size()].column,
-                 fmt::format("has {}; the header has {}",
-                             Count(static_cast<std::int64_t>(fields.size()), "field", "fields"),
-                             table_.columns.size()),
-                 separator_ == ',' ? "decimals are written with a point" : "");
-    }
-    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
-      const Field field = i < fields.size() ? fields[i] : Field{};
-      table_.columns[i].values.push_back(Number(field));
-    }
-  }
-
-  double Number(const Field& field) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (field.text.empty()) return kNone;
-    if (const std::optional<double> number = ParseNumber(field.text)) return *number;
-    const bool comma = field.text.find(',') != std::string::npos;
-    Add(field.column, fmt::format("expected a number, got {}", Quoted(field.text)),
-        comma ? "decimals are written with a point" : "");
-    return kNone;
-  }
-
-  void Add(int column, std::string what, std::string hint) {
-    mistakes_.push_back({.source = table_.source,
-                         .line = std::max(line_, 1),
-                         .column = column,
-                         .field = {},
-                         .what = std::move(what),
-                         .hint = std::move(hint)});
-  }
-
-  MeasuredTable table_;
-  char separator_ = ',';
-  int line_ = 0;
-  std::vector<Diagnostic> mistakes_;
-};
 
 }  // namespace
 
+MeasuredTable MeasuredTable::Open(const std::string& path, std::optional<int> skip) {
+  return {path, ReadText(path, kMostBytes), skip};
+}
+
+MeasuredTable::MeasuredTable(std::string source, const std::string& bytes, std::optional<int> skip)
+    : source_(std::move(source)), text_(std::make_unique<const std::string>(InUtf8(bytes))) {
+  for (std::size_t begin = 0; begin < text_->size();) {
+    const std::size_t end = std::min(text_->find('\n', begin), text_->size());
+    std::string_view line = std::string_view(*text_).substr(begin, end - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines_.push_back(line);
+    begin = end + 1;
+  }
+  FindRows(static_cast<std::size_t>(skip.value_or(0)));
+}
+
+void MeasuredTable::FindRows(std::size_t first) {
+  const TableDialect dialect = FindDialect(lines_, first);
+  if (dialect.kinds.empty()) {
+    RequireNone({AtLine(0, 1, "has no rows of numbers in two columns or more",
+                        "columns are separated by tabs, semicolons, commas or spaces")});
+  }
+  separator_ = dialect.separator;
+  decimal_comma_ = dialect.decimal_comma;
+  for (std::size_t i = dialect.first_row; i < lines_.size(); ++i) {
+    const bool blank = lines_[i].find_first_not_of(" \t") == std::string_view::npos;
+    if (!blank && !lines_[i].starts_with('#')) rows_.push_back(i);
+  }
+  columns_.resize(dialect.kinds.size());
+  ReadHeaders(first);
+}
+
+std::vector<std::string> MeasuredTable::Above(std::size_t first) const {
+  std::vector<std::string> above;
+  for (std::size_t i = rows_.front(); i-- > first && above.size() < 2;) {
+    std::string line(lines_[i]);
+    const bool comment = line.starts_with('#');
+    if (comment) line.erase(0, 1);
+    boost::trim_if(line, boost::is_any_of(" "));
+    if (line.empty() || (comment && HeadersOf(line, separator_).size() != columns_.size()))
+      continue;
+    above.push_back(line);
+  }
+  return above;
+}
+
+void MeasuredTable::ReadHeaders(std::size_t first) {
+  const std::vector<std::string> above = Above(first);
+  std::vector<std::string> headers, units;
+  if (!above.empty()) headers = HeadersOf(above[0], separator_);
+  if (above.size() == 2 && AreUnits(headers)) {
+    std::vector<std::string> upper = HeadersOf(above[1], separator_);
+    if (upper.size() >= headers.size() && upper.size() >= 2) {
+      units = std::exchange(headers, std::move(upper));
+    }
+  }
+  if (headers.size() < 2) return;  // A title, or nothing.
+  if (headers.size() < columns_.size()) {
+    RequireNone(
+        {AtLine(rows_.front(), 1,
+                fmt::format("has {} fields; the header has {}", columns_.size(), headers.size()),
+                separator_ == ',' ? "decimals are written with a point where commas separate"
+                                  : "headers, if there are any, stand right above the rows")});
+  }
+  columns_.resize(headers.size());
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    columns_[i] = ColumnWithUnit(headers[i]);
+    if (i < units.size() && columns_[i].unit.empty()) columns_[i].unit = WithoutBrackets(units[i]);
+  }
+}
+
+std::vector<double> MeasuredTable::Numbers(std::size_t column, Gap gap,
+                                           std::vector<Diagnostic>* mistakes) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> numbers;
+  numbers.reserve(rows_.size());
+  for (std::size_t row = 0; row < rows_.size() && mistakes->size() < kMostMistakes; ++row) {
+    const std::vector<TableField> fields = FieldsOf(lines_[rows_[row]], separator_);
+    numbers.push_back(kNone);
+    if (fields.size() > columns_.size()) {
+      mistakes->push_back(
+          AtLine(rows_[row], fields[columns_.size()].column,
+                 fmt::format("has {} fields; others have {}", fields.size(), columns_.size()),
+                 separator_ == ',' ? "decimals are written with a point" : ""));
+      continue;
+    }
+    const std::string text = column < fields.size() ? fields[column].text : std::string();
+    if (ReadField(text, decimal_comma_, &numbers.back()) && !IsGap(text)) continue;
+    numbers.back() = kNone;
+    if (!IsGap(text)) {
+      const bool comma = text.find(',') != std::string::npos && !decimal_comma_;
+      mistakes->push_back(At(row, column, fmt::format("expected a number, got {}", Quoted(text)),
+                             comma            ? "decimals are written with a point"
+                             : decimal_comma_ ? "decimals are written with a comma here"
+                                              : ""));
+    } else if (gap == Gap::kMistake) {
+      mistakes->push_back(At(row, column,
+                             text.empty() ? "has no number" : fmt::format("is {}", text),
+                             "a table of a load or motion has no gaps"));
+    }
+  }
+  return numbers;
+}
+
+Diagnostic MeasuredTable::At(std::size_t row, std::size_t column, std::string what,
+                             std::string hint) const {
+  const std::vector<TableField> fields = FieldsOf(lines_[rows_[row]], separator_);
+  const int end = static_cast<int>(lines_[rows_[row]].size()) + 1;
+  return AtLine(rows_[row], column < fields.size() ? fields[column].column : end, std::move(what),
+                std::move(hint));
+}
+
+Diagnostic MeasuredTable::AtLine(std::size_t line, int column, std::string what,
+                                 std::string hint) const {
+  return {.source = source_,
+          .line = static_cast<int>(line) + 1,
+          .column = column,
+          .field = {},
+          .what = std::move(what),
+          .hint = std::move(hint)};
+}
+
 std::string MeasuredTable::Headers() const {
   std::vector<std::string> headers;
-  for (const MeasuredColumn& column : columns) headers.push_back(column.header);
+  for (const MeasuredColumn& column : columns_) {
+    headers.push_back(column.header.empty() ? fmt::format("{}", headers.size() + 1)
+                                            : column.header);
+  }
   return fmt::format("{}", fmt::join(headers, ", "));
+}
+
+std::optional<std::size_t> MeasuredTable::TimeColumn() const {
+  const auto found = std::ranges::find_if(
+      columns_, [](const MeasuredColumn& column) { return IsTimeName(column.name); });
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
 }
 
 bool IsTable(const std::string& path) {
@@ -151,10 +208,9 @@ MeasuredColumn ColumnWithUnit(const std::string& header) {
   return column;
 }
 
-MeasuredTable ReadTable(const std::string& path) {
-  std::string text = ReadText(path);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, sizeof(kByteOrderMark) - 1);
-  return TableReader(path).Read(LinesOf(text));
+bool IsTimeName(const std::string& name) {
+  const std::string lower = boost::to_lower_copy(name);
+  return lower == "time" || lower == "t" || lower == "zeit" || lower == "temps";
 }
 
 }  // namespace contact::cli

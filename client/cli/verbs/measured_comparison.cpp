@@ -110,7 +110,7 @@ std::string MeasuredComparison::GivenFlag() const {
 ExitCode MeasuredComparison::Run(const std::string& job, const std::string& file,
                                  const SignalTolerance& common, const std::string& plot,
                                  const Settings& settings) const {
-  const MeasuredTable table = ReadTable(file);
+  const MeasuredTable table = MeasuredTable::Open(file);
   const auto map = ParseAssignments(map_, "--map", "HEADER=CHANNEL");
   const std::optional<TimeRange> range =
       fit_.empty() ? std::nullopt : std::optional(ReadRange(fit_));

@@ -1,5 +1,7 @@
 #include "cli/text/comparison/measured_signals.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -24,12 +26,12 @@ Recording ShortRecording() {
 
 MeasuredTable Table(const std::vector<std::string>& headers,
                     const std::vector<std::vector<double>>& values) {
-  MeasuredTable table{"m.csv"};
-  for (std::size_t i = 0; i < headers.size(); ++i) {
-    table.columns.push_back(ColumnWithUnit(headers[i]));
-    table.columns.back().values = values[i];
+  std::string text = fmt::format("{}\n", fmt::join(headers, ","));
+  for (std::size_t row = 0; row < values[0].size(); ++row) {
+    for (const std::vector<double>& column : values) text += fmt::format("{},", column[row]);
+    text += "\n";
   }
-  return table;
+  return {"m.csv", text};
 }
 
 std::string Refused(const std::vector<std::string>& headers,

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/case_conv.hpp>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -17,8 +16,6 @@
 
 namespace contact::cli {
 namespace {
-
-constexpr char kTime[] = "time";
 
 // What a column is said to be, by the map or by its header.
 struct Meaning {
@@ -43,36 +40,34 @@ class Finder {
     RequireMapped();
     const std::vector<double> times = Times();
     MeasuredSignals found;
-    for (const MeasuredColumn& column : table_.columns) {
+    for (std::size_t i = 0; i < table_.columns().size(); ++i) {
+      const MeasuredColumn& column = table_.columns()[i];
       const Meaning meaning = MeaningOf(column);
-      if (IsTime(meaning.channel)) continue;
+      if (IsTimeName(meaning.channel)) continue;
       const SampleColumn* channel = ChannelOf(meaning);
       if (channel == nullptr) {
         found.left_out.push_back(column.header);
       } else {
-        found.signals.push_back(Signal(column, meaning, *channel, times));
+        found.signals.push_back(Signal(i, meaning, *channel, times));
       }
     }
+    RequireNone(mistakes_);
     if (found.signals.empty()) FailWithoutSignal();
     return found;
   }
 
  private:
-  static bool IsTime(const std::string& name) {
-    const std::string lower = boost::to_lower_copy(name);
-    return lower == kTime || lower == "t";
-  }
-
   // Throws Failure unless every entry of the map has its column.
   void RequireMapped() const {
     for (const auto& [header, channel] : map_) {
-      const bool found = std::ranges::any_of(table_.columns, [&name = header](const auto& column) {
-        return column.header == name || column.name == name;
-      });
+      const bool found =
+          std::ranges::any_of(table_.columns(), [&name = header](const auto& column) {
+            return column.header == name || column.name == name;
+          });
       if (found) continue;
       throw Failure(ExitCode::kUsage,
                     fmt::format("--map {}={}: {} has no column {} — it has {}", header, channel,
-                                table_.source, Quoted(header), table_.Headers()));
+                                table_.source(), Quoted(header), table_.Headers()));
     }
   }
 
@@ -117,44 +112,50 @@ class Finder {
                                                 Quoted(column.header), Quoted(unit), si));
   }
 
-  std::vector<double> Times() const {
-    for (const MeasuredColumn& column : table_.columns) {
-      const Meaning meaning = MeaningOf(column);
-      if (!IsTime(meaning.channel)) continue;
-      std::vector<double> times = column.values;
-      const double factor = FactorOf(column, meaning.unit, "s");
-      for (double& time : times) time *= factor;
-      return times;
+  // The numbers of a column in SI; NaN where there is none.
+  std::vector<double> Values(std::size_t column, const std::string& unit, const std::string& si) {
+    const double factor = FactorOf(table_.columns()[column], unit, si);
+    std::vector<double> values = table_.Numbers(column, MeasuredTable::Gap::kNaN, &mistakes_);
+    for (double& value : values) value = InSi(value, factor);
+    return values;
+  }
+
+  std::vector<double> Times() {
+    for (std::size_t i = 0; i < table_.columns().size(); ++i) {
+      const Meaning meaning = MeaningOf(table_.columns()[i]);
+      if (IsTimeName(meaning.channel)) return Values(i, meaning.unit, "s");
     }
     throw Failure(ExitCode::kUsage,
                   fmt::format("{} has no column time — it has {}; --map HEADER=time names it",
-                              table_.source, table_.Headers()));
+                              table_.source(), table_.Headers()));
   }
 
-  static MeasuredSignal Signal(const MeasuredColumn& column, const Meaning& meaning,
-                               const SampleColumn& channel, const std::vector<double>& times) {
+  MeasuredSignal Signal(std::size_t column, const Meaning& meaning, const SampleColumn& channel,
+                        const std::vector<double>& times) {
     MeasuredSignal signal{channel.name, channel.unit};
-    const double factor = FactorOf(column, meaning.unit, channel.unit);
+    const std::vector<double> values = Values(column, meaning.unit, channel.unit);
+    if (!mistakes_.empty()) return signal;
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (!std::isfinite(times[i]) || !std::isfinite(column.values[i])) continue;
+      if (!std::isfinite(times[i]) || !std::isfinite(values[i])) continue;
       signal.times.push_back(times[i]);
-      signal.values.push_back(factor * column.values[i]);
+      signal.values.push_back(values[i]);
     }
     if (!signal.times.empty()) return signal;
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("column {} has no numbers with a time", Quoted(column.header)));
+    throw Failure(ExitCode::kUsage, fmt::format("column {} has no numbers with a time",
+                                                Quoted(table_.columns()[column].header)));
   }
 
   [[noreturn]] void FailWithoutSignal() const {
     throw Failure(ExitCode::kUsage,
                   fmt::format("{}: no column is a channel of {}; it has {} — {}; --map "
                               "HEADER=CHANNEL joins them",
-                              table_.source, run_.job.name(), table_.Headers(), Channels()));
+                              table_.source(), run_.job.name(), table_.Headers(), Channels()));
   }
 
   const MeasuredTable& table_;
   const Recording& run_;
   const std::map<std::string, std::string>& map_;
+  std::vector<Diagnostic> mistakes_;
 };
 
 }  // namespace
