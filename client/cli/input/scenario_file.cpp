@@ -4,7 +4,10 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -30,12 +33,13 @@ bool Within(std::string_view path, std::string_view whole) {
 }  // namespace
 
 ScenarioFile ScenarioFile::Open(const std::string& path, const VariableValues& variables) {
-  return {path == "-" ? "<stdin>" : path, ReadYaml(path), variables};
+  return {path == "-" ? "<stdin>" : path, ReadYaml(path), variables,
+          std::filesystem::path(path).parent_path().string()};
 }
 
 ScenarioFile::ScenarioFile(std::string name, const std::string& text,
-                           const VariableValues& variables)
-    : name_(std::move(name)) {
+                           const VariableValues& variables, std::string folder)
+    : name_(std::move(name)), tables_(std::move(folder)) {
   try {
     ReadDocument(text, variables);
   } catch (const YAML::Exception& error) {
@@ -57,7 +61,13 @@ void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& v
   };
   variables_ = ResolveVariables(variables, report, advise, &root_);
   RequireKnown(variables, variables_);
-  YamlReader(report).ReadMessage(root_, "", &scenario_);
+  const auto read_file = [&](const YAML::Node& node, const std::string& path,
+                             google::protobuf::Message* message) {
+    tables_.Read(node, path, report, message);
+  };
+  YamlReader(report, read_file).ReadMessage(root_, "", &scenario_);
+  std::ranges::copy(tables_.mistakes(), std::back_inserter(diagnostics_));
+  std::ranges::copy(tables_.advice(), std::back_inserter(advice_));
 }
 
 void ScenarioFile::Set(const std::string& assignment) {
@@ -91,6 +101,7 @@ Diagnostic ScenarioFile::Place(const Violation& violation) const {
       return {.source = std::string(kOverride), .field = field, .what = what, .hint = hint};
     }
   }
+  if (std::optional<Diagnostic> placed = tables_.Place(violation)) return *placed;
   return DiagnosticAt(name_, FindNode(root_, field).node.Mark(), field, what, hint);
 }
 
@@ -116,8 +127,9 @@ void ScenarioFile::AddAt(const YAML::Mark& mark, std::string field, std::string 
 
 std::vector<Diagnostic> ScenarioFile::diagnostics() const {
   std::vector<Diagnostic> sorted = diagnostics_;
-  std::ranges::stable_sort(sorted, {}, [](const Diagnostic& diagnostic) {
-    return std::tuple(diagnostic.source == kOverride, diagnostic.line, diagnostic.column);
+  std::ranges::stable_sort(sorted, {}, [this](const Diagnostic& diagnostic) {
+    return std::tuple(diagnostic.source == kOverride, diagnostic.source != name_, diagnostic.source,
+                      diagnostic.line, diagnostic.column);
   });
   return sorted;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/input/diagnostic.h"
+#include "cli/input/file_table.h"
 #include "cli/input/variables.h"
 #include "contact/v1/scenario.pb.h"
 #include "wire/scenario/scenario_codec.h"
@@ -19,9 +20,10 @@ class ScenarioFile {
   /// Reads `path`; `-` is the standard input. Throws Failure (kLocal) if there is no such file.
   static ScenarioFile Open(const std::string& path, const VariableValues& variables = {});
 
-  /// Reads `text`; `name` is what mistakes call it. Throws Failure (kUsage) if it has not one of
-  /// the variables.
-  ScenarioFile(std::string name, const std::string& text, const VariableValues& variables = {});
+  /// Reads `text`; `name` is what mistakes call it, `folder` where tables in files of their own
+  /// are. Throws Failure (kUsage) if it has not one of the variables.
+  ScenarioFile(std::string name, const std::string& text, const VariableValues& variables = {},
+               std::string folder = {});
 
   /// Overrides a field: `contacts[0].restitution=0.7`. In brackets may stand the name of a body or
   /// contact, or `*` for every entry of a list. The value is YAML. Throws Failure (kUsage) if this
@@ -63,6 +65,7 @@ class ScenarioFile {
   std::string name_;
   /// The document, whose nodes know their places.
   YAML::Node root_;
+  FileTables tables_;
   v1::Scenario scenario_;
   VariableFields variables_;
   /// Paths of the fields that Set has replaced: they have no place in the file.

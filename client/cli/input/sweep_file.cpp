@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,6 +15,7 @@
 
 #include "cli/base/scalar.h"
 #include "cli/input/checked_scenario.h"
+#include "cli/input/file_table.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
 #include "cli/input/yaml_load.h"
@@ -26,7 +29,9 @@ namespace {
 class SweepFile {
  public:
   SweepFile(std::string path, VariableValues variables)
-      : path_(std::move(path)), variables_(std::move(variables)) {}
+      : path_(std::move(path)),
+        variables_(std::move(variables)),
+        tables_(std::filesystem::path(path_).parent_path().string()) {}
 
   v1::Sweep Read(const std::string& text) {
     try {
@@ -61,11 +66,17 @@ class SweepFile {
     NameFields(base_ ? base_->variables() : WithinBase(own), &rest);
     NumberEnums(&rest);
     // The reader sees a clone, whose nodes have no marks.
-    const auto report = [this](const YAML::Mark&, const std::string& field, const std::string& what,
-                               const std::string& hint) {
+    const YamlReader::Report report = [this](const YAML::Mark&, const std::string& field,
+                                             const std::string& what, const std::string& hint) {
       AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
     };
-    YamlReader(report).ReadMessage(rest, "", &sweep_);
+    const auto read_file = [&](const YAML::Node& node, const std::string& path,
+                               google::protobuf::Message* message) {
+      tables_.Read(node, path, report, message);
+    };
+    YamlReader(report, read_file).ReadMessage(rest, "", &sweep_);
+    std::ranges::copy(tables_.mistakes(), std::back_inserter(mistakes_));
+    std::ranges::copy(tables_.advice(), std::back_inserter(advice_));
   }
 
   // The fields of variables that lie in the base, as paths from there.
@@ -126,6 +137,7 @@ class SweepFile {
       return AddAt(root_.Mark(), "base", "is missing", "name a scenario file, or write one here");
     }
     mistakes_ = CheckSweep(sweep_, base_ ? &*base_ : nullptr, [this](const Violation& rule) {
+      if (std::optional<Diagnostic> placed = tables_.Place(rule)) return *placed;
       const YAML::Mark mark = FindNode(root_, rule.field).node.Mark();
       return DiagnosticAt(name(), mark, rule.field, rule.description, rule.hint);
     });
@@ -145,6 +157,7 @@ class SweepFile {
   VariableValues variables_;  ///< That are not the file's own.
   YAML::Node root_;
   std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
+  FileTables tables_;                 ///< Of a base that is written here.
   v1::Sweep sweep_;
   std::vector<Diagnostic> mistakes_;
   std::vector<Diagnostic> advice_;  ///< On the file's own variables.

@@ -5,6 +5,7 @@
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <optional>
@@ -41,6 +42,23 @@ std::string EnumName(std::string text) {
   });
   return text;
 }
+
+constexpr std::array<FileKey, 8> kKeys{
+    {{"file", "string",
+      "A file of rows of numbers, as loggers write it, from the folder of this file. It takes the "
+      "place of the points."},
+     {"column", "",
+      "The column of the values, by its header or its number from 1. Default: the first but that "
+      "of the times."},
+     {"unit", "string", "Unit of the values. Default: that of the header, or else the SI unit."},
+     {"scale", "number", "What the values are multiplied with. Default: 1."},
+     {"time_column", "",
+      "The column of the times, by its header or its number from 1. Default: that called time or "
+      "t, or else the first."},
+     {"time_unit", "string", "Unit of the times. Default: that of the header, or else s."},
+     {"shift_s", "number", "What is added to the times, in s. Default: 0."},
+     {"skip", "integer",
+      "Lines of the file before its headers. Default: found by where rows of numbers begin."}}};
 
 constexpr char kPoint[] = "decimals are written with a point";
 
@@ -103,10 +121,23 @@ const EnumValueDescriptor* FindWord(const EnumDescriptor& type, const std::strin
   return type.FindValueByName(EnumName(text));
 }
 
+std::span<const FileKey> FileKeys() { return kKeys; }
+
+const FieldDescriptor* TableValues(const Descriptor& type) {
+  if (type.FindFieldByName("times_s") == nullptr) return nullptr;
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& field = *type.field(i);
+    const bool numbers = field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
+    if (numbers && field.name() != "times_s") return &field;
+  }
+  return nullptr;
+}
+
 void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
                              Message* message) const {
   if (node.IsNull()) return;
   if (!node.IsMap()) return Refuse(node, path, "a mapping");
+  const bool in_file = IsInFile(node, *message->GetDescriptor());
   std::map<std::string, int> lines;
   Whole before;
   for (const auto& entry : node) {
@@ -123,13 +154,38 @@ void YamlReader::ReadMessage(const YAML::Node& node, const std::string& path,
     }
     before = WholeOf(entry.second, JoinPath(path, name));
     const auto [first, is_new] = lines.emplace(name, entry.first.Mark().line + 1);
-    if (is_new) {
+    if (is_new && in_file) {
+      ReadEntryBesideFile(entry.first, entry.second, path, message);
+    } else if (is_new) {
       ReadEntry(entry.first, entry.second, path, message);
     } else {
       report_(entry.first.Mark(), JoinPath(path, name),
               fmt::format("is given twice, first in line {}", first->second), "");
     }
   }
+  if (in_file) read_file_(node, path, message);
+}
+
+bool YamlReader::IsInFile(const YAML::Node& node, const Descriptor& type) const {
+  if (!read_file_ || TableValues(type) == nullptr) return false;
+  return std::any_of(node.begin(), node.end(), [](const auto& entry) {
+    return entry.first.IsScalar() && entry.first.Scalar() == FileKeys().front().name;
+  });
+}
+
+void YamlReader::ReadEntryBesideFile(const YAML::Node& key, const YAML::Node& value,
+                                     const std::string& path, Message* message) const {
+  std::vector<std::string_view> keys;
+  for (const FileKey& known : FileKeys()) keys.push_back(known.name);
+  const std::string& name = key.Scalar();
+  if (std::ranges::find(keys, name) != keys.end()) return;
+  const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(name);
+  if (field != nullptr && !field->is_repeated()) return ReadEntry(key, value, path, message);
+  report_(key.Mark(), JoinPath(path, name),
+          field == nullptr ? "unknown field" : "cannot stand beside file",
+          field == nullptr
+              ? DidYouMean(name, keys, fmt::format("fields are {}", fmt::join(keys, ", ")))
+              : "");
 }
 
 void YamlReader::ReadEntry(const YAML::Node& key, const YAML::Node& value, const std::string& path,

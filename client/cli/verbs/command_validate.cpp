@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -66,8 +67,9 @@ ValidFile CheckSweepFile(const ValidateArguments& arguments, const std::string& 
 
 ValidFile CheckScenarioFile(const ValidateArguments& arguments, const std::string& text) {
   ValidFile file;
-  file.scenario =
-      Checked({arguments.Name(), text, ParseVariables(arguments.variables)}, arguments.overrides);
+  const std::string folder = std::filesystem::path(arguments.file).parent_path().string();
+  file.scenario = Checked({arguments.Name(), text, ParseVariables(arguments.variables), folder},
+                          arguments.overrides);
   const v1::Scenario& scenario = file.scenario->scenario();
   file.parts = {{"body", "bodies", scenario.bodies_size()},
                 {"contact", "contacts", CountContacts(scenario)},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/input/yaml_reader.h"
 #include "wire/rules/field_rule.h"
 
 namespace contact::cli {
@@ -83,6 +84,19 @@ ordered_json OneOf(const OneofDescriptor& oneof) {
   return {{"oneOf", choices}};
 }
 
+// The keys with which a table names a file that contactctl reads its numbers from.
+void AddFileKeys(ordered_json* properties) {
+  for (const FileKey& key : FileKeys()) {
+    const ordered_json type = key.type.empty() ? ordered_json({"string", "integer"})
+                                               : ordered_json(std::string(key.type));
+    const ordered_json value = {{"type", type}};
+    ordered_json& property = (*properties)[std::string(key.name)];
+    property = {{"description", key.text}};
+    property.update(key.type == "string" || key.type.empty() ? value
+                                                             : OrVariable(value, Side::kWritten));
+  }
+}
+
 // Makes a schema with a definition for each message that it needs.
 class Maker {
  public:
@@ -113,6 +127,7 @@ class Maker {
       properties[field.name()] = Property(field);
       if (side_ == Side::kWritten && RuleOf(field).required()) required.push_back(field.name());
     }
+    if (side_ == Side::kWritten && TableValues(message) != nullptr) AddFileKeys(&properties);
     ordered_json schema = {{"type", "object"},
                            {"description", CommentOf(message)},
                            {"properties", properties},
@@ -130,7 +145,7 @@ class Maker {
     if (field.is_map()) {
       schema.update({{"type", "object"}, {"additionalProperties", {{"type", "string"}}}});
     } else if (field.is_repeated()) {
-      schema.update({{"type", "array"}, {"items", Item(field)}});
+      schema.update({{"type", "array"}, {"items", Item(field, rule)}});
       AddCounts(rule, &schema);
     } else if (named_base_ && field.full_name() == "contact.v1.Sweep.base") {
       schema["anyOf"] = {{{"type", "string"}, {"minLength", 1}}, Single(field)};
@@ -152,9 +167,11 @@ class Maker {
     return text ? schema : OrVariable(schema, side_);
   }
 
-  ordered_json Item(const FieldDescriptor& field) {
+  // An entry of a list, whose range is that of each entry.
+  ordered_json Item(const FieldDescriptor& field, v1::FieldRule rule) {
+    rule.clear_required();
     const bool message = field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
-    return message ? Single(field) : Scalar(field, v1::FieldRule());
+    return message ? Single(field) : Scalar(field, rule);
   }
 
   ordered_json Single(const FieldDescriptor& field) {

@@ -8,6 +8,7 @@
 
 #include "cli/input/scenario_file.h"
 #include "cli/input/templates.h"
+#include "cli/input/yaml_reader.h"
 #include "wire/rules/field_rule.h"
 
 namespace contact::cli {
@@ -129,6 +130,31 @@ whose base is a file, each has its own variables; `--var` is for that which has 
 An axis of a sweep may be a variable, `var:restitution`: it sets every number whose value is `${restitution}`.
 )";
 
+std::string TablesInFiles() {
+  std::string page = R"(
+## Tables in files
+
+A table of a load or motion may be in a file of its own, such as a logger writes: `file` takes the place of
+`points`, or of `times_s` and the values. contactctl and the Python client read the file; what the server gets is
+the numbers. Nothing is resampled. [The guide](../docs/guide/scenarios.md#measured-loads-and-motions) shows it.
+
+```yaml
+loads:
+  - body: ram
+    table: {file: hammer.csv, column: force, unit: kN, shift_s: 0.01}
+```
+
+)";
+  for (const FileKey& key : FileKeys()) {
+    const std::string_view type = key.type.empty()        ? "text or whole number"
+                                  : key.type == "integer" ? "whole number"
+                                  : key.type == "string"  ? "text"
+                                                          : "number";
+    page += fmt::format("- `{}` ({}): {}\n", key.name, type, key.text);
+  }
+  return page;
+}
+
 std::string Shipped() {
   std::string page = "| File | Shows |\n|---|---|\n";
   for (const Template& scenario : Templates()) {
@@ -156,6 +182,7 @@ std::string ReferenceInMarkdown(const std::vector<Chapter>& chapters) {
       "stand in\nthem follows. An editor that knows JSON Schema completes and checks it: see the "
       "first line of each\nfile, and `contactctl schema`.\n";
   page += kVariables;
+  page += TablesInFiles();
   for (const Chapter& chapter : chapters) {
     page += fmt::format("\n## {}\n\n{}", chapter.name, Paragraphs(chapter.text, ""));
     page += chapter.fields.empty() ? "" : "\n";
