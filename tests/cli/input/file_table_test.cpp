@@ -63,6 +63,23 @@ TEST_F(FileTableTest, BecomesTheListsOfTheContract) {
   EXPECT_THAT(table.points(), IsEmpty());
 }
 
+TEST_F(FileTableTest, IsTheSameScenarioAsTheListsInEachDialect) {
+  const std::string lists = Open("{times_s: [0, 0.0005, 0.0015], forces_n: [0, 40, 90.5]}")
+                                .scenario()
+                                .SerializeAsString();
+  for (const std::string text :
+       {"t [ms],F [N]\n0,0\n0.5,40\n1.5,90.5\n", "t [ms];F [N]\n0;0\n0,5;40\n1,5;90,5\n",
+        "t [s]\tF [kN]\n0\t0\n5e-4\t0.04\n0.0015\t0.0905\n",
+        "  t (ms)   F (N)\n  0  0\n  0.5  40.0\n  1.5  90.5\n",
+        "Logger\nRate;2\nTime;Force\nms;N\n0;0\n0,5;40\n1,5;90,5\n",
+        "\xEF\xBB\xBF\"t [us]\",\"F [N]\"\r\n0,0\r\n500,40\r\n1500,90.5\r\n"}) {
+    Write(text);
+    const ScenarioFile file = Open("{file: m.csv}");
+    EXPECT_THAT(file.diagnostics(), IsEmpty()) << text;
+    EXPECT_EQ(file.scenario().SerializeAsString(), lists) << text;
+  }
+}
+
 TEST_F(FileTableTest, KeysChooseScaleAndShift) {
   Write("a,F,t,G\n1,2,-3,4\n2,3,-1,7\n");
   auto table =
