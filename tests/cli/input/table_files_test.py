@@ -26,7 +26,7 @@ class TableFilesTest(CliTest):
                                      "wall": {"side": "RIGHT"}}]
         path = self.folder / "s.json"
         path.write_text(json.dumps(scenario))
-        self.job = json.loads(self.run_it("run", path, "-o", "json")[0])
+        self.job = json.loads(self.run_it("run", path, "-o", "json", code=None)[0])
         return self.job
 
     def numbers(self, table):
