@@ -147,6 +147,11 @@ class FileTableTest(Case):
     def test_what_does_not_fit_is_told(self):
         self.table("t [s],F [V]\n0,1\n1,x\n2,3\n")
         at = "loads[0].table"
+        both = self.folder / "both.csv"
+        both.write_text("t [s],F [N]\n0,x\ny,1\n1,2,3\n2,3\n3,4\n4,5\n5,6\n")
+        with self.assertRaises(InvalidScenario) as caught:
+            self.scenario({"file": str(both)})
+        self.assertEqual(len(caught.exception.violations), 3, "one a place, of both columns")
         for table, words in (
                 ({}, f"{at}.unit: 'V' is no unit of a quantity in N — one of N, kN"),
                 ({"unit": "mm"}, f"{at}.unit: 'mm' is no unit"),

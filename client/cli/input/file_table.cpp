@@ -56,6 +56,7 @@ class FileTables::Request {
     std::vector<double> t = Numbers(*table, *times, "time_unit", "s", 1);
     for (double& time : t) time += shift;
     std::vector<double> v = Numbers(*table, *values, "unit", UnitOf(of_values), Number("scale", 1));
+    for (const Diagnostic& mistake : mistakes_) Add(mistake);
     if (failed_) return;
     const double first = t.front();
     Store(t, *message->GetDescriptor()->FindFieldByName(kTimes), message);
@@ -148,9 +149,7 @@ class FileTables::Request {
   std::vector<double> Numbers(const MeasuredTable& table, std::size_t column,
                               const std::string& key, const std::string& si, double scale) {
     const std::optional<double> factor = Factor(table, column, key, si);
-    std::vector<Diagnostic> mistakes;
-    std::vector<double> numbers = table.Numbers(column, MeasuredTable::Gap::kMistake, &mistakes);
-    for (Diagnostic& mistake : mistakes) Add(std::move(mistake));
+    std::vector<double> numbers = table.Numbers(column, MeasuredTable::Gap::kMistake, &mistakes_);
     if (factor) {
       for (double& number : numbers) number = InSi(number, *factor) * scale;
     }
@@ -190,6 +189,7 @@ class FileTables::Request {
   const YAML::Node& node_;
   const std::string& path_;
   const YamlReader::Report& report_;
+  std::vector<Diagnostic> mistakes_;  // In both columns.
   bool failed_ = false;
 };
 

@@ -124,35 +124,38 @@ void MeasuredTable::ReadHeaders(std::size_t first) {
 
 std::vector<double> MeasuredTable::Numbers(std::size_t column, Gap gap,
                                            std::vector<Diagnostic>* mistakes) const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> numbers;
-  numbers.reserve(rows_.size());
+  std::vector<double> numbers(rows_.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t row = 0; row < rows_.size() && mistakes->size() < kMostMistakes; ++row) {
-    const std::vector<TableField> fields = FieldsOf(lines_[rows_[row]], separator_);
-    numbers.push_back(kNone);
-    if (fields.size() > columns_.size()) {
-      mistakes->push_back(
-          AtLine(rows_[row], fields[columns_.size()].column,
-                 fmt::format("has {} fields; others have {}", fields.size(), columns_.size()),
-                 separator_ == ',' ? "decimals are written with a point" : ""));
-      continue;
-    }
-    const std::string text = column < fields.size() ? fields[column].text : std::string();
-    if (ReadField(text, decimal_comma_, &numbers.back()) && !IsGap(text)) continue;
-    numbers.back() = kNone;
-    if (!IsGap(text)) {
-      const bool comma = text.find(',') != std::string::npos && !decimal_comma_;
-      mistakes->push_back(At(row, column, fmt::format("expected a number, got {}", Quoted(text)),
-                             comma            ? "decimals are written with a point"
-                             : decimal_comma_ ? "decimals are written with a comma here"
-                                              : ""));
-    } else if (gap == Gap::kMistake) {
-      mistakes->push_back(At(row, column,
-                             text.empty() ? "has no number" : fmt::format("is {}", text),
-                             "a table of a load or motion has no gaps"));
-    }
+    std::optional<Diagnostic> mistake = ReadNumber(row, column, gap, &numbers[row]);
+    const auto is_told = [&mistake](const Diagnostic& told) {
+      return told.line == mistake->line && told.column == mistake->column;
+    };
+    if (mistake && std::ranges::none_of(*mistakes, is_told)) mistakes->push_back(*mistake);
   }
   return numbers;
+}
+
+std::optional<Diagnostic> MeasuredTable::ReadNumber(std::size_t row, std::size_t column, Gap gap,
+                                                    double* number) const {
+  const std::vector<TableField> fields = FieldsOf(lines_[rows_[row]], separator_);
+  constexpr char kPoint[] = "decimals are written with a point";
+  if (fields.size() > columns_.size()) {
+    return AtLine(rows_[row], fields[columns_.size()].column,
+                  fmt::format("has {} fields; others have {}", fields.size(), columns_.size()),
+                  separator_ == ',' ? kPoint : "");
+  }
+  const std::string text = column < fields.size() ? fields[column].text : std::string();
+  if (IsGap(text)) {
+    if (gap == Gap::kNaN) return std::nullopt;
+    return At(row, column, text.empty() ? "has no number" : fmt::format("is {}", text),
+              "a table of a load or motion has no gaps");
+  }
+  if (ReadField(text, decimal_comma_, number)) return std::nullopt;
+  const bool comma = text.find(',') != std::string::npos;
+  return At(row, column, fmt::format("expected a number, got {}", Quoted(text)),
+            decimal_comma_ ? "decimals are written with a comma here"
+            : comma        ? kPoint
+                           : "");
 }
 
 Diagnostic MeasuredTable::At(std::size_t row, std::size_t column, std::string what,

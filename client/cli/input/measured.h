@@ -46,7 +46,7 @@ class MeasuredTable {
   /// What a field is that is empty or nan.
   enum class Gap { kNaN, kMistake };
   /// The numbers of a column, one a row; NaN for a gap. Adds a mistake for each field that is no
-  /// number, kMostMistakes of them.
+  /// number and has none yet, until there are kMostMistakes.
   std::vector<double> Numbers(std::size_t column, Gap gap, std::vector<Diagnostic>* mistakes) const;
 
   /// A mistake in the field of a row and a column.
@@ -55,6 +55,9 @@ class MeasuredTable {
   static constexpr std::size_t kMostMistakes = 20;
 
  private:
+  // Reads a number; the mistake if there is none.
+  std::optional<Diagnostic> ReadNumber(std::size_t row, std::size_t column, Gap gap,
+                                       double* number) const;
   // Where headers and rows are, and what separates their fields.
   void FindRows(std::size_t first);
   void ReadHeaders(std::size_t first);

@@ -51,10 +51,15 @@ bool Fits(const std::string& kinds, const std::string& row) {
   return kinds.find('n') != std::string::npos;
 }
 
-// Whether a line has as many fields, and a number where rows have their first one: a row with a
-// mistake, and no header.
+// Whether a line has a number where rows have their first one, so that it is no header.
+bool BeginsAs(const std::string& row, const std::string& kinds) {
+  const std::size_t number = row.find('n');
+  return kinds.size() >= 2 && kinds.size() > number && kinds[number] == 'n';
+}
+
+// Whether a line is a row with a mistake.
 bool IsAlmostARow(const std::string& kinds, const std::string& row) {
-  return kinds.size() >= row.size() && EndsAs(row, kinds) && kinds[row.find('n')] == 'n';
+  return BeginsAs(row, kinds) && kinds.size() >= row.size() && EndsAs(row, kinds);
 }
 
 // The lines from `first` on that may be rows.
@@ -87,8 +92,8 @@ std::string MostCommonKinds(std::span<const std::string_view> lines,
   return best == counts.end() ? std::string() : best->first;
 }
 
-// The first of two lines, one after the other, that are rows; and before it those that would be but
-// for a mistake.
+// The first of two lines, one after the other, that are rows; or one before it that would be but
+// for a mistake, so that a mistake hides no row.
 std::optional<std::size_t> FirstRow(std::span<const std::string_view> lines,
                                     std::span<const std::size_t> candidates,
                                     const TableDialect& dialect) {
@@ -101,7 +106,10 @@ std::optional<std::size_t> FirstRow(std::span<const std::string_view> lines,
         !IsAlmostARow(kinds(i + 1), dialect.kinds)) {
       continue;
     }
-    while (i > 0 && IsAlmostARow(kinds(i - 1), dialect.kinds)) --i;
+    while (i > 0 && BeginsAs(dialect.kinds, kinds(i - 1))) --i;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (IsAlmostARow(kinds(j), dialect.kinds)) return candidates[j];
+    }
     return candidates[i];
   }
   return std::nullopt;

@@ -6,6 +6,7 @@ import pathlib
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
 
 from .errors import Violation
@@ -26,7 +27,7 @@ def may_be_in_file(type_: Descriptor) -> bool:
 
 def read_into(message: Any, source: Mapping[str, Any], path: str,
               folder: pathlib.Path) -> list[Violation]:
-    """Fills the lists of a table from the file that `source` names; what is wrong, if something is."""
+    """Fills the lists of a table from the file that `source` names, and returns what is wrong."""
     values = _values_of(message.DESCRIPTOR)
     beside = [field.name for field in message.DESCRIPTOR.fields
               if field.label == FieldDescriptor.LABEL_REPEATED and field.name in source]
@@ -72,8 +73,12 @@ def _read(source: Mapping[str, Any], values: FieldDescriptor,
     if source.get("column") is not None:
         column = _column(table, source, "column")
     unit = next(unit for ending, unit in _ENDINGS if values.name.endswith(ending))
-    return (_si(table, clock, source, "time_unit", "s") + shift,
-            _si(table, column, source, "unit", unit) * scale)
+    mistakes: list[str] = []
+    times = _si(table, clock, source, "time_unit", "s", mistakes)
+    numbers = _si(table, column, source, "unit", unit, mistakes)
+    if mistakes:
+        raise TableMistake(list(dict.fromkeys(mistakes)))
+    return times + shift, numbers * scale
 
 
 def _number(source: Mapping[str, Any], key: str, usual: float) -> float:
@@ -94,8 +99,9 @@ def _column(table: Table, source: Mapping[str, Any], key: str) -> int:
     raise _Refused(key, f"{table.source} has no column '{name}'", f"it has {table.headers()}")
 
 
-def _si(table: Table, index: int, source: Mapping[str, Any], key: str, si: str) -> Array:
-    """The numbers of a column in SI."""
+def _si(table: Table, index: int, source: Mapping[str, Any], key: str, si: str,
+        mistakes: list[str]) -> Array:
+    """The numbers of a column in SI. Adds what is wrong in it."""
     column = table.columns[index]
     unit = str(source.get(key) or column.unit)
     last = column.name.rpartition("_")
@@ -103,5 +109,9 @@ def _si(table: Table, index: int, source: Mapping[str, Any], key: str, si: str) 
     if known is None:
         raise _Refused(key, f"'{unit}' is no unit of a quantity in {si}",
                        f"one of {usual_units(si)}")
-    numbers: Array = in_si(table.numbers(index, False), known)
-    return numbers
+    try:
+        numbers: Array = in_si(table.numbers(index, False), known)
+        return numbers
+    except TableMistake as wrong:
+        mistakes += wrong.mistakes
+        return np.empty(0)

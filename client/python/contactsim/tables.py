@@ -81,8 +81,8 @@ class Table:
             fields = _split(self._lines[row], self._separator)
             if len(fields) > len(self.columns):
                 hint = " — decimals are written with a point" if self._separator == "," else ""
-                mistakes.append(self._at(row, len(self.columns), f"has {len(fields)} fields; others "
-                                         f"have {len(self.columns)}{hint}"))
+                what = f"has {len(fields)} fields; others have {len(self.columns)}{hint}"
+                mistakes.append(self._at(row, len(self.columns), what))
             text = fields[column] if column < len(fields) else ""
             number = None if _is_gap(text) else _read(text, self._comma)
             if number is not None:
@@ -126,23 +126,23 @@ class Table:
 
     def _first_row(self, candidates: list[int], row: str) -> int | None:
         """The first of two lines that are rows, and before it those that a mistake hides."""
-        number = row.find("n")
-
         def kinds(i: int) -> str:
             return _kinds(self._lines[candidates[i]], self._separator)
 
-        def almost(found: str) -> bool:  # A row with a mistake, and no header.
-            same = len(found) >= len(row) and not found[len(row):].strip("g")
-            return same and found[number] == "n"
+        def begins(found: str) -> bool:  # No header: a number where rows have their first one.
+            return 2 <= len(found) > row.find("n") and found[row.find("n")] == "n"
+
+        def almost(found: str) -> bool:  # A row with a mistake.
+            return begins(found) and len(found) >= len(row) and not found[len(row):].strip("g")
 
         for i in range(len(candidates)):
             if not _fits(kinds(i), row):
                 continue
             if i + 1 < len(candidates) and not (_fits(kinds(i + 1), row) or almost(kinds(i + 1))):
                 continue
-            while i > 0 and almost(kinds(i - 1)):
+            while i > 0 and begins(kinds(i - 1)):
                 i -= 1
-            return candidates[i]
+            return candidates[next((j for j in range(i) if almost(kinds(j))), i)]
         return None
 
     def _has_decimal_commas(self) -> bool:

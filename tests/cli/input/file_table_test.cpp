@@ -116,10 +116,12 @@ TEST_F(FileTableTest, RulesThatItsRowsBreakAreToldWhereTheFileHasThem) {
                   "m.csv:4:3: loads[0].table: is 1e+16; must be in [-1e15, 1e15]",
                   "m.csv:5:1: loads[0].table: is 2, which is not after the 2 before — points "
                   "follow one another in time"));
-  Write("t [s],F [N]\n1,1\n2,x\n3,\n4,5\n");
+  Write("t [s],F [N]\n1,1\n2,x\n3,\ny,4\n4,5,6\n7,8\n8,9\n9,10\n10,11\n11,12\n");
   EXPECT_THAT(Mistakes("{file: m.csv}"),
               ElementsAre("m.csv:3:3: loads[0].table: expected a number, got 'x'",
-                          HasSubstr("m.csv:4:3: loads[0].table: has no number")));
+                          HasSubstr("m.csv:4:3: loads[0].table: has no number"),
+                          "m.csv:5:1: loads[0].table: expected a number, got 'y'",
+                          HasSubstr("m.csv:6:5: loads[0].table: has 3 fields; others have 2")));
 }
 
 TEST_F(FileTableTest, WhatTheScenarioAsksForAndTheFileLacksIsTold) {

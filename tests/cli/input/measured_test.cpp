@@ -124,6 +124,9 @@ TEST(MeasuredTable, MistakesAreToldTogetherAtTheirPlaces) {
       ElementsAre("m:2:1: expected a number, got '0,1' — decimals are written with a point"));
   EXPECT_THAT(Mistakes("t;F\nx;1\n1;y\n2;3\n3;4\n"),
               ElementsAre("m:3:3: expected a number, got 'y'"));
+  EXPECT_THAT(Mistakes("t,F\n0,x\ny,1\n1,2,3\n2,3\n3,4\n4,5\n5,6\n"),
+              ElementsAre("m:2:3: expected a number, got 'x'", HasSubstr("m:4:5: has 3 fields")))
+      << "mistakes hide no rows";
   EXPECT_THAT(Mistakes("t,F\n0,0,1,5\n0,5,2,5\n1,0,3,5\n"),
               ElementsAre(HasSubstr("m:2:1: has 4 fields; the header has 2")));
 }

@@ -1,4 +1,4 @@
-"""Tables of loads and motions in files: what the server solves is the same however they are written."""
+"""Tables of loads and motions in files: the server solves the same however they are written."""
 
 import json
 import math
