@@ -54,7 +54,7 @@ auto Numbers(const Drive& piece) {
 }
 
 // What a scenario with these tables is, as numbers.
-auto Decoded(const std::string& rest) {
+auto DrivesOf(const std::string& rest) {
   const DecodedScenario decoded =
       DecodeScenario(FromText(kBall + ("bodies {name: 'D' motion {" + rest + "}}")));
   EXPECT_THAT(Lines(decoded.violations), IsEmpty()) << rest;
@@ -81,7 +81,7 @@ TEST(TimeTable, ListsAreTheSameTableAsPoints) {
         kind, value);
     const std::string by_lists =
         fmt::format("{} {{times_s: [0.1, 0.3, 0.4] {}: [3, -7, 5]}}", kind, values);
-    EXPECT_EQ(Decoded(by_points), Decoded(by_lists)) << kind;
+    EXPECT_EQ(DrivesOf(by_points), DrivesOf(by_lists)) << kind;
   }
 }
 

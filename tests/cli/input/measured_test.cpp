@@ -67,8 +67,8 @@ std::vector<double> NumbersOf(const MeasuredTable& table, std::size_t column) {
 }
 
 // All mistakes in a column of a text, or why it is no table.
-std::vector<std::string> Mistakes(const std::string& text, std::size_t column = 1,
-                                  MeasuredTable::Gap gap = MeasuredTable::Gap::kMistake) {
+std::vector<std::string> MistakesIn(const std::string& text, std::size_t column = 1,
+                                    MeasuredTable::Gap gap = MeasuredTable::Gap::kMistake) {
   std::vector<Diagnostic> mistakes;
   try {
     MeasuredTable("m", text).Numbers(column, gap, &mistakes);
@@ -114,26 +114,26 @@ TEST(MeasuredTable, LinesThatAreSkippedAreNotLookedAt) {
 
 TEST(MeasuredTable, MistakesAreToldTogetherAtTheirPlaces) {
   EXPECT_THAT(
-      Mistakes("t,F\n0,1\n1,x\n2,\n3,nan\n4,5\n5,6,7\n6,\"1,5\"\n8,9\n"),
+      MistakesIn("t,F\n0,1\n1,x\n2,\n3,nan\n4,5\n5,6,7\n6,\"1,5\"\n8,9\n"),
       ElementsAre("m:3:3: expected a number, got 'x'", HasSubstr("m:4:3: has no number"),
                   HasSubstr("m:5:3: is nan"),
                   "m:7:5: has 3 fields; others have 2 — decimals are written with a point",
                   "m:8:3: expected a number, got '1,5' — decimals are written with a point"));
   EXPECT_THAT(
-      Mistakes("t;F\n0,1;1\n1;2.5\n2;3\n3;4\n", 0),
+      MistakesIn("t;F\n0,1;1\n1;2.5\n2;3\n3;4\n", 0),
       ElementsAre("m:2:1: expected a number, got '0,1' — decimals are written with a point"));
-  EXPECT_THAT(Mistakes("t;F\nx;1\n1;y\n2;3\n3;4\n"),
+  EXPECT_THAT(MistakesIn("t;F\nx;1\n1;y\n2;3\n3;4\n"),
               ElementsAre("m:3:3: expected a number, got 'y'"));
-  EXPECT_THAT(Mistakes("t,F\n0,x\ny,1\n1,2,3\n2,3\n3,4\n4,5\n5,6\n"),
+  EXPECT_THAT(MistakesIn("t,F\n0,x\ny,1\n1,2,3\n2,3\n3,4\n4,5\n5,6\n"),
               ElementsAre("m:2:3: expected a number, got 'x'", HasSubstr("m:4:5: has 3 fields")))
       << "mistakes hide no rows";
-  EXPECT_THAT(Mistakes("t,F\n0,0,1,5\n0,5,2,5\n1,0,3,5\n"),
+  EXPECT_THAT(MistakesIn("t,F\n0,0,1,5\n0,5,2,5\n1,0,3,5\n"),
               ElementsAre(HasSubstr("m:2:1: has 4 fields; the header has 2")));
 }
 
 TEST(MeasuredTable, WhatIsNoTableIsTold) {
   for (const char* text : {"", "t,F\n", "t\n1\n2\n", "only words\nand more\n"}) {
-    EXPECT_THAT(Mistakes(text), ElementsAre(HasSubstr("m:1:1: has no rows of numbers"))) << text;
+    EXPECT_THAT(MistakesIn(text), ElementsAre(HasSubstr("m:1:1: has no rows of numbers"))) << text;
   }
   EXPECT_THROW(MeasuredTable::Open("/none.csv"), Failure);
 }
