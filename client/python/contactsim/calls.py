@@ -7,7 +7,7 @@ import pathlib
 import stat
 import time
 import uuid
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, Mapping, Sequence
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2
@@ -16,8 +16,6 @@ from .errors import RunFailed
 from .recording import Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
-
-JobLike = Union[str, job_pb2.Job, Result]
 
 OPTIONS: Sequence[tuple[str, int]] = (
     ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
@@ -30,6 +28,7 @@ OPTIONS: Sequence[tuple[str, int]] = (
     ("grpc.enable_http_proxy", 0),  # A proxy for the web does not know contactd.
 )
 TRIES = 3  # Of a unary call.
+PAGE = 500  # Jobs of a list that come at once.
 
 
 def address_of(address: str | None) -> str:
@@ -91,14 +90,6 @@ def ended(job: job_pb2.Job, recording: Recording, failed: bool = False) -> Resul
         del job.groups[:]
         job.groups.extend(recording.groups.values())
     return Result(job, recording)
-
-
-def job_name(job: JobLike) -> str:
-    """`jobs/ID` for a job, a result, `jobs/ID` or `ID`."""
-    if isinstance(job, Result):
-        job = job.job
-    name = job.name if isinstance(job, job_pb2.Job) else job
-    return name if name.startswith("jobs/") else f"jobs/{name}"
 
 
 def deadline_of(timeout_s: float | None) -> float | None:

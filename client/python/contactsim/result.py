@@ -77,13 +77,26 @@ class Result:
 
     @functools.cached_property
     def xr(self) -> xarray.Dataset:
-        """The trajectory over `time`, with units as attributes. A copy, as `series` is. Needs
-        xarray."""
+        """The trajectory over `time` and `body` or `contact`, with units as attributes:
+        `xr.velocity.sel(body="B1")`, `xr.contact_force.sel(contact="B1-B2")`. A copy, as `series` is.
+        Needs xarray."""
         import xarray  # Only who asks for it needs it.
 
-        variables = {name: ("time", np.array(values), {"units": self.units[name]})
-                     for name, values in self.arrays.items()}
-        return xarray.Dataset(variables, attrs=self.provenance)
+        bodies = {body.name for body in self.scenario.bodies}
+        named = [name.rpartition(".") for name in self.arrays if name != "time"]
+        variables: dict[str, Any] = {}
+        for quantity in dict.fromkeys(quantity for _, _, quantity in named):
+            owners = [owner for owner, _, other in named if other == quantity]
+            dimension = "body" if bodies.issuperset(owners) else "contact"
+            columns = [f"{owner}.{quantity}" for owner in owners]
+            variables[quantity] = xarray.DataArray(
+                np.column_stack([self.arrays[column] for column in columns]),
+                {"time": self["time"], dimension: owners}, ("time", dimension),
+                attrs={"units": self.units[columns[0]]})
+        data = xarray.Dataset(variables, {"time": np.array(self.arrays.get("time", ()))},
+                              self.provenance)
+        data.time.attrs["units"] = "s"
+        return data
 
     @functools.cached_property
     def cycles(self) -> pd.DataFrame:
