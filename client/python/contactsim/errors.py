@@ -6,8 +6,8 @@ import dataclasses
 from typing import Any, Iterable, Mapping
 
 import grpc
+from contact.rpc import error_details_pb2, status_pb2
 from contact.v1 import job_pb2
-from google.rpc import error_details_pb2, status_pb2
 
 
 @dataclasses.dataclass(frozen=True)
