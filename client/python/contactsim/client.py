@@ -12,7 +12,8 @@ import pandas as pd
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
 from . import pages
-from .calls import PAGE, TRIES, address_of, create_request, deadline_of, ended, open_channel
+from .calls import (PAGE, TRIES, address_of, create_request, deadline_of, ended, labels_of,
+                    open_channel)
 from .downloading import Download
 from .errors import CallError, RunFailed, from_rpc
 from .finding import JobLike, Search, job_frame, list_request
@@ -108,7 +109,8 @@ class Client:
         `timeout_s`; the job then goes on.
         """
         deadline = deadline_of(timeout_s)
-        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set), labels=labels)
+        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set),
+                          labels=labels_of(labels))
         request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         with ProgressBar(progress) as bar:
             created: job_pb2.Job = self._call(self._stub.CreateJob, request)

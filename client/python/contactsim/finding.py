@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import difflib
 import re
 from typing import Any, Iterable, Mapping, Protocol, Union
 
@@ -12,6 +11,7 @@ import pandas as pd
 from contact.v1 import job_pb2, job_service_pb2
 
 from .errors import AmbiguousJob, JobNotFound
+from .spelling import expected, shown
 
 _WHOLE = 10  # Characters of the IDs that a server gives.
 _MOST_BACK = 999  # One page of a list has so many jobs and one more.
@@ -36,22 +36,15 @@ def job_name(job: JobLike) -> str:
     name = job if isinstance(job, str) else getattr(job, "name", None)
     if not isinstance(name, str) or not name:
         raise TypeError("a job is named by its ID or the beginning of it, by 'last', or by a Job, a "
-                        f"Result or a row of list(), and not by {_shown(job)}")
+                        f"Result or a row of list(), and not by {shown(job)}")
     return name if name.startswith("jobs/") else f"jobs/{name}"
-
-
-def _shown(value: Any) -> str:
-    text = repr(value)
-    return f"{type(value).__name__} {text if len(text) <= 40 else text[:37] + '...'}"
 
 
 def state_of(word: str) -> job_pb2.Job.State:
     """The state of a word in any case. Raises ValueError with those there are."""
     states = dict(job_pb2.Job.State.items()[1:])
     if word.upper() not in states:
-        near = difflib.get_close_matches(word.upper(), states, 1)
-        raise ValueError(f"{word!r} is no state of a job; "
-                         + (f"did you mean {near[0]!r}?" if near else f"one of {', '.join(states)}"))
+        raise ValueError(f"{word!r} is no state of a job" + expected(word.upper(), states))
     found: job_pb2.Job.State = states[word.upper()]
     return found
 

@@ -16,12 +16,20 @@ from .measured import MeasuredLike, SignalComparison, compare_measured
 from .model import Array
 from .plotting import Plots
 from .recording import Recording
+from .spelling import expected
 
 if TYPE_CHECKING:
     import xarray
 
 _LEDGER = ("contact", "number", "group", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
+
+
+class NoChannel(KeyError):
+    """The run recorded no such column; the text names those that are near."""
+
+    def __str__(self) -> str:  # That of KeyError is in quotes.
+        return str(self.args[0])
 
 
 class Result:
@@ -62,7 +70,7 @@ class Result:
         try:
             return self.arrays[name]
         except KeyError:
-            raise KeyError(f"{name!r}; there are {', '.join(self.arrays)}") from None
+            raise NoChannel(f"there is no channel {name!r}" + expected(str(name), self.arrays)) from None
 
     @functools.cached_property
     def series(self) -> pd.DataFrame:
