@@ -341,6 +341,17 @@ class ClientTest(ServerTest):
         self.assertEqual([job.name for job in caught.exception.jobs], same)
         self.assertIn(same[0].removeprefix("jobs/"), str(caught.exception))
 
+    def test_series_is_thinned_and_loses_no_peak(self):
+        run = self.client.run(three_ball_chain())
+        thin = self.client.series(run, ["B1-B2.contact_force"], max_points=20, end_time_s=2e-3)
+        self.assertEqual(list(thin.columns), ["B1-B2.contact_force [N]"])
+        self.assertLessEqual(len(thin), 20)
+        self.assertLessEqual(thin.index[-1], 2e-3)
+        self.assertEqual(thin.iloc[:, 0].max(), run["B1-B2.contact_force"].max())
+        self.assertEqual(list(self.client.series("last").columns), list(run.series.columns))
+        with self.assertRaisesRegex(CallError, "did you mean 'B1.velocity'"):
+            self.client.series(run, ["B1.velocty"])
+
     def test_list_finds_jobs_by_state_and_label(self):
         self.client.run(three_ball_chain(), labels={"law": "a"})
         second = self.client.run(three_ball_chain(), labels={"law": "b"})

@@ -8,6 +8,7 @@ import uuid
 from typing import Any, Callable, Iterable, Iterator, Mapping
 
 import grpc
+import numpy as np
 import pandas as pd
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
@@ -21,7 +22,7 @@ from .keywords import hinted
 from .pages import PathLike
 from .progress import ProgressBar
 from .recording import KINDS, Recording
-from .result import Result
+from .result import Result, series_frame
 from .scenario import ScenarioLike
 from .sweeping import AxisValue, SweepResult, make_sweep
 from .watching import WHOLE, JobChange, Position, Roster, delivery_options
@@ -226,6 +227,18 @@ class Client:
         it did not succeed, unless `failed`."""
         deadline = deadline_of(timeout_s)
         return self._follow(self._find(job), None, deadline, ProgressBar(False), failed)
+
+    def series(self, job: JobLike, channels: Iterable[str] = (), *,
+               start_time_s: float | None = None, end_time_s: float | None = None,
+               max_points: int = 1000) -> pd.DataFrame:
+        """The recorded motion of a job, thinned so that no peak is lost, as `Result.series` has it: of
+        some channels, by default all, and of a part of the time. Also while the job runs."""
+        request = job_service_pb2.GetSeriesRequest(
+            name=self._find(job), channels=channels, start_time_s=start_time_s,
+            end_time_s=end_time_s, max_points=max_points)
+        answer: job_service_pb2.Series = self._call(self._stub.GetSeries, request)
+        arrays = {column.name: np.frombuffer(column.values, dtype="<f8") for column in answer.columns}
+        return series_frame(arrays, {column.name: column.unit for column in answer.columns})
 
     def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 import pandas as pd
@@ -79,9 +79,7 @@ class Result:
 
         It is a copy of `arrays`, made once, and may be changed.
         """
-        named = {f"{name} [{self.units[name]}]": values for name, values in self.arrays.items()}
-        time = named.pop("time [s]", np.empty(0))
-        return pd.DataFrame(named, index=pd.Index(np.array(time), name="time [s]"), copy=True)
+        return series_frame(self.arrays, self.units)
 
     @functools.cached_property
     def xr(self) -> xarray.Dataset:
@@ -175,6 +173,13 @@ class Result:
         ledger = self.cycles[list(_LEDGER)].to_html(index=False, max_rows=20)
         bodies = self.bodies.to_html(index=False, max_rows=20)
         return f"<p><b>{html.escape(self._headline())}</b></p>{ledger}{bodies}"
+
+
+def series_frame(arrays: Mapping[str, Array], units: Mapping[str, str]) -> pd.DataFrame:
+    """Columns such as `B1.velocity [m/s]` over an index of `time [s]`; copies."""
+    named = {f"{name} [{units[name]}]": values for name, values in arrays.items()}
+    time = named.pop("time [s]", np.empty(0))
+    return pd.DataFrame(named, index=pd.Index(np.array(time), name="time [s]"), copy=True)
 
 
 def _row(message: Any) -> dict[str, Any]:
