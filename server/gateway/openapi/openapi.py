@@ -70,10 +70,11 @@ _ERROR = {
     "properties": {
         "code": {"type": "string", "enum": _CODES},
         "message": {"type": "string"},
-        "details": {"type": "array", "items": {"type": "object", "required": ["type", "value"], "properties": {
-            "type": {"type": "string", "description": "Such as `google.rpc.BadRequest`."},
-            "value": {"type": "string", "contentEncoding": "base64"},
-            "debug": {"type": "object", "description": "The detail in JSON."}}}}}}
+        "details": {"type": "array", "items": {
+            "type": "object", "required": ["type", "value"], "properties": {
+                "type": {"type": "string", "description": "Such as `google.rpc.BadRequest`."},
+                "value": {"type": "string", "contentEncoding": "base64"},
+                "debug": {"type": "object", "description": "The detail in JSON."}}}}}}
 
 
 class Document:
@@ -87,7 +88,7 @@ class Document:
         files = [file for file in contract.file if not file.name.startswith("google/protobuf/")]
         for file in files:
             self._read(file)
-        self._paths: Json = {path: _plain(*about) for path, about in _PLAIN.items()}
+        self._paths: Json = {path: _plain(path, *about) for path, about in _PLAIN.items()}
         for file in files:
             for service in file.service:
                 for method in service.method:
@@ -288,9 +289,9 @@ def _query(request: Json) -> list[Json]:
             {"name": "encoding", "in": "query", "required": True, "schema": {"const": "json"}}]
 
 
-def _plain(about: str, media: str, statuses: tuple[int, ...]) -> Json:
+def _plain(path: str, about: str, media: str, statuses: tuple[int, ...]) -> Json:
     content = {media: {"schema": {"type": "string" if media == "text/plain" else "object"}}}
-    return {"get": {"operationId": re.sub(r"\W+", "_", about.rstrip(".")).lower()[:40], "summary": about.rstrip("."),
+    return {"get": {"operationId": re.sub(r"\W", "_", path.strip("/")), "summary": about.rstrip("."),
                     "security": [{}],
                     "responses": {str(status): {"description": about, "content": content}
                                   for status in statuses}}}
