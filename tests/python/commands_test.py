@@ -77,7 +77,7 @@ class CommandsTest(unittest.TestCase):
             "presets.ts", "curves.ts", "hysteresis.ts", "iterations.ts"))
         self.assertEqual(re.findall(r"title: '", source), [])
         self.assertLessEqual(set(re.findall(r"titles\.(\w+)|titles\['([\w-]+)'\]", source)),
-                             {(word, "") for word in WORDS["titles"]} | {("", word) for word in WORDS["titles"]})
+                             {pair for word in WORDS["titles"] for pair in ((word, ""), ("", word))})
 
     def test_items_of_the_paper_are_its_figures_and_tables(self):
         self.assertEqual(len(ITEMS), len(set(ITEMS)), ITEMS)

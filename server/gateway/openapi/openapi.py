@@ -298,12 +298,28 @@ def _plain(path: str, about: str, media: str, statuses: tuple[int, ...]) -> Json
 
 
 def cpp(text: str) -> str:
-    """A source that defines OpenApiDocument. A literal may have 64 KiB at most by the standard."""
+    """A source that defines OpenApiDocument, in literals below the 64 KiB that compilers must take."""
+    assert ')json"' not in text
     parts = [text[start:start + 16_000] for start in range(0, len(text), 16_000)]
-    literals = "\n".join(f'R"json({part})json"' for part in parts)
-    return ('#include "gateway/openapi/openapi.h"\n\nnamespace contact::gateway {\n\n'
-            f"std::string_view OpenApiDocument() {{\n  return {literals};\n}}\n\n"
-            "}  // namespace contact::gateway\n")
+    literals = ",\n".join(f'R"json({part})json"' for part in parts)
+    return f"""#include "gateway/openapi/openapi.h"
+
+#include <string>
+
+namespace contact::gateway {{
+
+std::string_view OpenApiDocument() {{
+  static const std::string document = [] {{
+    constexpr std::string_view kParts[] = {{{literals}}};
+    std::string text;
+    for (const std::string_view part : kParts) text += part;
+    return text;
+  }}();
+  return document;
+}}
+
+}}  // namespace contact::gateway
+"""
 
 
 def main(contract: str, version: str, output: str) -> None:
