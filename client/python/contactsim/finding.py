@@ -66,6 +66,8 @@ class Search:
         self.name = job_name(job)
         self._back = _steps_back(job) if isinstance(job, str) else None
         self.request: job_service_pb2.ListJobsRequest | None = None
+        if not isinstance(job, str):
+            return
         if self._back is not None:
             self.request = job_service_pb2.ListJobsRequest(page_size=self._back + 1)
         elif 0 < len(self.name) - len("jobs/") < _WHOLE:
