@@ -20,7 +20,7 @@ ORDER = {
     "server/storage": [".", "sqlite", "postgres"],
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
-    "server/gateway": ["net", "protocol", "call", "http1", "http2", "."],
+    "server/gateway": ["net", "protocol", "openapi", "call", "http1", "http2", "."],
     "client/cli": ["base", "input", "settings", "link", "text", "export", "translate", "help", "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],
     "client/cli/help": ["contract", "."],

@@ -7,7 +7,8 @@ import shutil
 import subprocess
 import unittest
 
-from contactd import PATIENCE_S, ServerTest
+from contact.v1 import admin_service_pb2, job_service_pb2
+from contactd import PATIENCE_S, ServerTest, three_ball_chain
 
 ROOT = pathlib.Path(__file__).parents[2]
 
@@ -78,6 +79,73 @@ class NodeTest(ServerTest):
                                cwd=bare, capture_output=True, text=True, timeout=4 * PATIENCE_S)
         self.assertEqual(re.findall(r"^(\S+)\(2,\d+\)", check.stdout, re.MULTILINE),
                          ["wrong.mts"], check.stdout)
+
+    def run_program(self, program):
+        """What a program of the package prints."""
+        (self.example / "program.mjs").write_text(
+            "import {Client, ContactError, values} from './dist/contact.js';\n"
+            f"const client = new Client('127.0.0.1:{self.server.port}');\n{program}\nclient.close();\n")
+        run = self.tool("node", "program.mjs")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def test_every_call_of_the_contract_is_there(self):
+        source = (self.example / "contact.ts").read_text("utf-8")
+        for module in (job_service_pb2, admin_service_pb2):
+            for service in module.DESCRIPTOR.services_by_name.values():
+                for method in service.methods:
+                    self.assertIn(f".{method.name}(", source)
+
+    def test_every_call_of_the_contract_answers(self):
+        name = self.server.run(three_ball_chain(), labels={"study": "chain"}).name
+        printed = self.run_program(f"""
+        const name = '{name}';
+        const {{scenario}} = await client.get(name);
+        const found = [];
+        for await (const job of client.list({{labels: {{study: 'chain'}}}})) found.push(job.name);
+        console.log(found.length, found[0] === name);
+        const series = await client.series(name, {{channels: ['B3.velocity'], max_points: 10}});
+        console.log(values(series.columns[1]).at(-1).toFixed(6));
+        console.log((await client.serverInfo()).version);
+        console.log((await client.validate(scenario)).estimate.samples);
+        let bytes = 0;
+        for await (const part of client.artifact(name, 'cycles.csv')) bytes += part.length;
+        console.log(bytes > 100);
+        for await (const {{jobs}} of client.watchJobs()) {{ console.log(jobs[0].name === name); break; }}
+        const base = {{...scenario, title: 'of a sweep'}};
+        const sweep = await client.submitSweep({{base, metrics: ['iterations'],
+          axes: [{{field: 'contacts[*].restitution', values: [0.5, 0.7]}}]}}, {{labels: {{kind: 'sweep'}}}});
+        let cells = 0;
+        for await (const {{sweep_cell}} of client.watch(sweep.name, ['sweep_cell'])) cells += Boolean(sweep_cell);
+        console.log(cells, (await client.cancel(sweep.name)).state);
+        await client.delete(name);
+        let copied = 0;
+        for await (const part of client.backup()) copied += part.length;
+        console.log(copied > 1000);""")
+        self.assertRegex(printed, r"^1 true\n0\.15\d+\n\d+\.\d+\.\d+\n\d+\ntrue\ntrue\n2 SUCCEEDED\ntrue\n$")
+
+    def test_all_that_is_wrong_is_told_with_what_is_expected(self):
+        printed = self.run_program("""
+        const ball = {name: 'A', mass_kg: -1, radius_m: 0.02};
+        const told = async (call) => {
+          const error = await call.catch((caught) => caught);
+          console.log(error instanceof ContactError, error.reason, error.violations.length);
+          console.log(error.message);
+        };
+        await told(client.submit({titel: 'x', bodies: [{...ball, mass_kg: '1'}], start: 'APRT'}));
+        await told(client.submit({bodies: [ball, {...ball, name: 'B'}], end_time_s: 1}));
+        await told(client.get('jobs/none'));
+        const job = await client.submit({bodies: [{...ball, mass_kg: 1}], end_time_s: 1e-3,
+          contacts: []});
+        for await (const _ of client.watch(job.name)) {}
+        await told(client.series(job.name, {channels: ['A.velocty']}));""")
+        self.assertIn("true FIELD_INVALID 3\nthe scenario is invalid\n  titel: unknown field — did you mean "
+                      "'title'?\n  bodies[0].mass_kg: expected a number, got '1'\n  start: unknown value 'APRT' "
+                      "— did you mean 'APART'?\n", printed)
+        self.assertRegex(printed, r"true SCENARIO_INVALID 2\n.*\n  bodies\[0\]\.mass_kg: is -1; must be .*\n"
+                                  r"  bodies\[1\]\.mass_kg: is -1; must be ")
+        self.assertIn("true JOB_NOT_FOUND 0\n", printed)
+        self.assertRegex(printed, r"(?s)true FIELD_INVALID 1\n.*channels\[0\].*did you mean 'A\.velocity'")
 
     def test_missing_server_is_told_in_one_line(self):
         run = self.tool("node", "dist/run.js", "127.0.0.1:1")

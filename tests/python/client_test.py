@@ -10,8 +10,8 @@ import numpy as np
 import pandas
 from contactd import (Job, ServerTest, endless, is_cycle, three_ball_chain,
                       two_balls_and_a_wall)
-from contactsim import (AsyncClient, Client, DownloadFailed, InvalidScenario, JobNotFound,
-                        RunFailed, Timeout, Unreachable)
+from contactsim import (AmbiguousJob, AsyncClient, CallError, Client, DownloadFailed,
+                        InvalidScenario, JobNotFound, RunFailed, Timeout, Unreachable)
 
 SCENARIOS = pathlib.Path(__file__).parents[2] / "client" / "scenarios"
 PATIENCE_S = 60
@@ -124,7 +124,7 @@ class ClientTest(ServerTest):
             async with AsyncClient(self.address) as client:
                 run = await client.run("two-balls", set={"end_time_s": 1e-3}, progress=False)
                 sweep = await client.sweep("two-balls", {"contacts[*].restitution": [0.5, 0.7]})
-                listed = [job.name async for job in client.list(states=["SUCCEEDED"])]
+                listed = [job.name async for job in client.jobs(states=["SUCCEEDED"])]
                 checked = await client.validate("two-balls")
                 waited = await client.wait(run.job)
                 await client.delete(run.job)
@@ -290,12 +290,74 @@ class ClientTest(ServerTest):
         async with AsyncClient(self.address) as client:
             return await client.download(*arguments)
 
+    def test_jobs_are_a_table_whose_rows_name_them(self):
+        first = self.client.run(three_ball_chain(title="one"), labels={"law": "a"})
+        second = self.client.run(three_ball_chain(title="two"), labels={"law": "b"})
+        sweep = self.client.sweep("two-balls", {"contacts[*].restitution": [0.5, 0.7]})
+        jobs = self.client.list()
+        self.assertEqual(list(jobs.index), [sweep.name, second.name, first.name])
+        self.assertEqual(list(jobs.kind), ["sweep", "scenario", "scenario"])
+        self.assertEqual(list(jobs.title[1:]), ["two", "one"])
+        self.assertEqual(set(jobs.state), {"SUCCEEDED"})
+        self.assertEqual(set(jobs.convergence), {"FULL"})
+        self.assertEqual(set(jobs.owner), {"local"})
+        self.assertEqual(jobs["labels"][first.name], {"law": "a"})
+        self.assertTrue((jobs.ended >= jobs.created).all())
+        self.assertEqual(str(jobs.created.dtype), "datetime64[ns, UTC]")
+        self.assertEqual(self.client.result(jobs.iloc[1]).name, second.name)
+        self.assertEqual(list(self.client.list(limit=2).index), list(jobs.index[:2]))
+        self.assertEqual(len(self.client.list(name_prefix=first.name.removeprefix("jobs/"))), 1)
+        self.assertEqual(len(self.client.list(states=["failed"])), 0)
+        with self.assertRaisesRegex(ValueError, "'SUCEEDED' is no state.*'SUCCEEDED'"):
+            self.client.list(states=["SUCEEDED"])
+
+    def test_job_is_named_as_in_contactctl(self):
+        with self.assertRaisesRegex(JobNotFound, "the server has no jobs"):
+            self.client.last()
+        first = self.client.run(three_ball_chain())
+        second = self.client.run(three_ball_chain())
+        self.assertEqual(self.client.last().name, second.name)
+        self.assertEqual(self.client.last(1).name, first.name)
+        self.assertEqual(self.client.get("last~1").name, first.name)
+        begin = first.name[:next(i for i in range(6, 15) if first.name[:i] != second.name[:i])]
+        self.assertEqual(self.client.result(begin).name, first.name)
+        heard = list(self.client.watch(begin.removeprefix("jobs/"), kinds=["state_changed"]))
+        self.assertEqual(heard[-1].state_changed.state, Job.SUCCEEDED)
+        for wrong, error, words in (("last~2", JobNotFound, "the server has 2 jobs"),
+                                    ("last~x", ValueError, "whole number from 0 to 999"),
+                                    ("!!", JobNotFound, "!!"), (1, TypeError, "not by int 1"),
+                                    ("jobs/", CallError, "")):
+            with self.assertRaisesRegex(error, words):
+                self.client.get(wrong)
+
+    def test_beginning_of_several_names_is_told_with_them(self):
+        names = []
+        while len({name[5] for name in names}) == len(names):
+            names.append(self.client.run("two-balls", set={"end_time_s": 1e-4}).name)
+        begin = next(name[5] for name in names[::-1] if [n[5] for n in names].count(name[5]) > 1)
+        with self.assertRaisesRegex(AmbiguousJob, f"several jobs begin with '{begin}':") as caught:
+            self.client.get(begin)
+        same = [name for name in names[::-1] if name[5] == begin]
+        self.assertEqual([job.name for job in caught.exception.jobs], same)
+        self.assertIn(same[0].removeprefix("jobs/"), str(caught.exception))
+
+    def test_series_is_thinned_and_loses_no_peak(self):
+        run = self.client.run(three_ball_chain())
+        thin = self.client.series(run, ["B1-B2.contact_force"], max_points=20, end_time_s=2e-3)
+        self.assertEqual(list(thin.columns), ["B1-B2.contact_force [N]"])
+        self.assertLessEqual(len(thin), 20)
+        self.assertLessEqual(thin.index[-1], 2e-3)
+        self.assertEqual(thin.iloc[:, 0].max(), run["B1-B2.contact_force"].max())
+        self.assertEqual(list(self.client.series("last").columns), list(run.series.columns))
+        with self.assertRaisesRegex(CallError, "did you mean 'B1.velocity'"):
+            self.client.series(run, ["B1.velocty"])
+
     def test_list_finds_jobs_by_state_and_label(self):
         self.client.run(three_ball_chain(), labels={"law": "a"})
         second = self.client.run(three_ball_chain(), labels={"law": "b"})
-        self.assertEqual([job.name for job in self.client.list(labels={"law": "b"})],
+        self.assertEqual([job.name for job in self.client.jobs(labels={"law": "b"})],
                          [second.name])
-        self.assertEqual(len(list(self.client.list(states=["SUCCEEDED"]))), 2)
+        self.assertEqual(len(list(self.client.jobs(states=["SUCCEEDED"]))), 2)
         self.client.delete(second)
         with self.assertRaises(JobNotFound) as caught:
             self.client.get(second)

@@ -13,7 +13,10 @@ from unittest import mock
 import numpy as np
 from contactsim import commands
 from contactsim.figures import PRESETS, Curve, Figure, FigureError, Panel
+from contactsim.figures.words import WORDS
 from contactsim.paper import ITEMS
+
+DASHBOARD = pathlib.Path(__file__).parents[2] / "client" / "web" / "src" / "model"
 
 
 class CommandsTest(unittest.TestCase):
@@ -67,6 +70,14 @@ class CommandsTest(unittest.TestCase):
         self.assertEqual((drawn.panels[0].log_y, drawn.panels[0].lowest_y), (True, None))
         with self.assertRaisesRegex(FigureError, "no value above 0"):
             commands._make_log(figure(-1.0, 0.0))
+
+    def test_every_preset_has_a_title_in_the_table_of_words(self):
+        self.assertLessEqual(set(PRESETS), set(WORDS["titles"]))
+        source = "".join((DASHBOARD / name).read_text("utf-8") for name in (
+            "presets.ts", "curves.ts", "hysteresis.ts", "iterations.ts"))
+        self.assertEqual(re.findall(r"title: '", source), [])
+        self.assertLessEqual(set(re.findall(r"titles\.(\w+)|titles\['([\w-]+)'\]", source)),
+                             {pair for word in WORDS["titles"] for pair in ((word, ""), ("", word))})
 
     def test_items_of_the_paper_are_its_figures_and_tables(self):
         self.assertEqual(len(ITEMS), len(set(ITEMS)), ITEMS)

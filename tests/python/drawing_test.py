@@ -6,11 +6,14 @@ import subprocess
 import tempfile
 import unittest
 
-from contactsim.figures import PRESETS, preset_figure
+import numpy as np
+from contactsim.figures import PRESETS, Curve, Figure, Panel, preset_figure
 from contactsim.figures.characters import text
+from contactsim.figures.draw import drawn
 from contactsim.figures.files import format_of, inline, rendered, save
-from contactsim.figures.figure import FigureError
+from contactsim.figures.figure import FigureError, keep_largest
 from contactsim.figures.look import Look
+from matplotlib.colors import to_rgb
 from PIL import Image
 from sample_run import sample_run, stored_run
 
@@ -34,6 +37,21 @@ class DrawingTest(unittest.TestCase):
             drawn = self.draw(form)
             self.assertTrue(drawn.startswith(start), drawn[:40])
             self.assertEqual(self.draw(form), drawn, form)
+
+    def test_many_lines_are_coloured_by_their_place_but_not_in_print(self):
+        x = np.arange(5.0)
+        curves = [Curve(f"c{place}", place, x, place * x) for place in range(30)]
+        figure = Figure("", [Panel("time [s]", "velocity [m/s]", curves)])
+        keep_largest(figure)
+        ax = drawn(figure).axes[0]
+        small = ax.collections[0].get_colors()
+        self.assertEqual(len({tuple(colour) for colour in small}), 20)
+        green = np.array([to_rgb(line.get_color())[1] for line in ax.lines])
+        self.assertTrue((np.diff(green) > 0).all())  # Of viridis it grows.
+        self.assertGreater(green[0], small[-1][1])
+        self.assertEqual(ax.get_xlim()[1], drawn(figure, Look(paper=True)).axes[0].get_xlim()[1])
+        self.assertEqual(len(drawn(figure, Look(paper=True)).axes[0].collections), 0)
+        self.assertIn("20 smaller", [text.get_text() for text in ax.get_legend().get_texts()])
 
     def test_every_preset_is_drawn_for_latex_and_in_eighty_characters(self):
         for preset in PRESETS:

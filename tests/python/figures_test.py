@@ -208,6 +208,13 @@ class ManyCurvesTest(unittest.TestCase):
         keep_largest(figure)
         self.assertEqual([curve.mark for curve in figure.panels[0].curves], again)
 
+    def test_rows_beyond_twelve_have_the_colour_of_their_place(self):
+        for count, shades in ((12, {None}), (13, {place / 12 for place in range(13)})):
+            figure = Figure("", [Panel("x", "y", self.curves(*range(1, count + 1)))])
+            keep_largest(figure)
+            self.assertEqual({curve.shade for curve in figure.panels[0].curves}, shades)
+            self.assertEqual(sum(curve.is_faint for curve in figure.panels[0].curves), count - 10)
+
     def test_spans_may_count_instead_of_heights(self):
         curves = self.curves(1, 1)
         curves[0].y = np.array([8.0, 9.0])

@@ -50,7 +50,7 @@ class ProgressTest(ServerTest):
             with self.assertRaisesRegex(ImportError, "apt install python3-tqdm"):
                 self.client.run(CHAIN, progress=True)
             self.client.run(CHAIN, timeout_s=PATIENCE_S)
-        self.assertEqual(len(list(self.client.list())), 1)
+        self.assertEqual(len(self.client.list()), 1)
 
 
 class PartDoneTest(unittest.TestCase):

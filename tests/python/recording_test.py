@@ -7,6 +7,7 @@ import numpy as np
 from contact.v1 import event_pb2, job_pb2
 from contactsim import Result
 from contactsim.recording import Recording
+from sample_run import sample_run
 
 
 def chunk_event(first, values):
@@ -74,8 +75,9 @@ class RecordingTest(unittest.TestCase):
         result.job.groups.append(group.group)
         result.groups["mu"] *= 2
         self.assertEqual(list(result.groups.mu), [4])
-        result.xr["c1"][:] = 0
-        np.testing.assert_array_equal(result["c1"], self.values[1])
+        sample = sample_run()
+        sample.xr.velocity[:] = -1
+        self.assertTrue((sample["A.velocity"] >= 0).all())
 
     def test_missing_chunk_is_noticed(self):
         recording = Recording()
@@ -104,16 +106,23 @@ class RecordingTest(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "time, c1, c2"):
             result_of(chunk_event(0, self.values))["c9"]
 
-    def test_xarray_has_the_series_over_time_with_units(self):
-        result = result_of(chunk_event(0, self.values))
-        column = result.xr["c1"]
-        np.testing.assert_array_equal(column, result["c1"])
-        np.testing.assert_array_equal(column.time, result["time"])
-        self.assertEqual(column.attrs["units"], result.units["c1"])
+    def test_xarray_has_quantities_over_time_and_body_or_contact_with_units(self):
+        result = sample_run()
+        data = result.xr
+        self.assertEqual(list(data), ["position", "velocity", "deformation", "deformation_velocity",
+                                      "contact_force", "external_force"])
+        self.assertEqual(data.velocity.dims, ("time", "body"))
+        np.testing.assert_array_equal(data.velocity.sel(body="B"), result["B.velocity"])
+        np.testing.assert_array_equal(data.contact_force.sel(contact="W"), result["W.contact_force"])
+        self.assertEqual(data.contact_force.attrs["units"], result.units["W.contact_force"])
+        np.testing.assert_array_equal(data.time, result["time"])
+        self.assertEqual(float(data.position.sel(time=0.5, body="A")), 1.0)
+        self.assertEqual(data.attrs, result.provenance)
 
     def test_result_without_samples_has_empty_tables(self):
         result = result_of()
         self.assertEqual(len(result.series) + len(result.cycles) + len(result.bodies), 0)
+        self.assertEqual((len(result.xr), result.xr.sizes["time"]), (0, 0))
         self.assertIn("too_much_mu", result.groups.columns)
         self.assertIn("mu", result.iterations.columns)
 

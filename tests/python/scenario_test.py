@@ -49,7 +49,7 @@ class LoadTest(unittest.TestCase):
             file.write(text)
             file.flush()
             scenario, other = load_scenario(file.name), load_scenario(file.name, {"e": 0.5})
-            with self.assertRaisesRegex(ValueError, "unknown variable 'ee': the file has e, name"):
+            with self.assertRaisesRegex(ValueError, "unknown variable 'ee'; did you mean 'e'"):
                 load_scenario(file.name, {"ee": 0.5})
         self.assertEqual(scenario.title, "ε is 0.8, ${e}")
         self.assertEqual(scenario.bodies[0].name, "ball")
@@ -149,7 +149,7 @@ class LoadTest(unittest.TestCase):
             self.assertEqual(load_scenario(name), load_scenario(SCENARIOS / f"{name}.yaml"))
         with self.assertRaisesRegex(FileNotFoundError, "did you mean 'two-balls'?"):
             load_scenario("two-bals")
-        with self.assertRaisesRegex(FileNotFoundError, "templates are bouncing-ball, "):
+        with self.assertRaisesRegex(FileNotFoundError, "there are bouncing-ball, "):
             load_scenario("elephant")
 
     def test_document_that_is_no_mapping_is_refused(self):

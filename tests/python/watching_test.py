@@ -13,6 +13,7 @@ LOG = [event_pb2.Event(sequence=i, log_entry=event_pb2.LogEntry(message=str(i)))
        for i in range(1, 41)]
 LOG.append(event_pb2.Event(
     sequence=41, state_changed=event_pb2.StateChanged(state=job_pb2.Job.SUCCEEDED)))
+JOB = "abcdefghij"  # A whole ID, for which nobody is asked.
 
 
 class BreakingServer(job_service_pb2_grpc.JobServiceServicer):
@@ -54,7 +55,7 @@ class WatchTest(unittest.TestCase):
     def test_no_event_is_missed_or_repeated_over_20_broken_links(self):
         for code in (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.INTERNAL, None):
             with self.subTest(code), Client(self.serve(code).address) as client:
-                heard = [event.sequence for event in client.watch("x")]
+                heard = [event.sequence for event in client.watch(JOB)]
                 self.assertEqual(heard, list(range(1, 42)))
 
     def test_change_of_a_job_is_heard_once_over_broken_links(self):
@@ -88,19 +89,19 @@ class WatchTest(unittest.TestCase):
 
         async def listen():
             async with AsyncClient(server.address) as client:
-                return [event.sequence async for event in client.watch("x")]
+                return [event.sequence async for event in client.watch(JOB)]
 
         self.assertEqual(asyncio.run(listen()), list(range(1, 42)))
         self.assertEqual(server.asked, list(range(0, 41, 2)))
 
     def test_watch_after_the_last_event_ends(self):
         with Client(self.serve(None).address) as client:
-            self.assertEqual(list(client.watch("x", after_sequence=41)), [])
+            self.assertEqual(list(client.watch(JOB, after_sequence=41)), [])
 
     def test_refusal_is_final(self):
         server = self.serve(grpc.StatusCode.NOT_FOUND)
         with Client(server.address) as client, self.assertRaises(JobNotFound):
-            list(client.watch("x"))
+            list(client.watch(JOB))
         self.assertEqual(len(server.asked), 1)
 
     def test_pauses_grow_to_a_limit_and_start_anew_after_a_message(self):
@@ -115,7 +116,7 @@ class WatchTest(unittest.TestCase):
     def test_watch_gives_up_when_its_time_is_over(self):
         server = self.serve(None)
         with Client(server.address) as client, self.assertRaises(CallError) as caught:
-            for event in client.watch("x", timeout_s=0):
+            for event in client.watch(JOB, timeout_s=0):
                 self.fail(f"{event} came after the end")
         self.assertIsInstance(caught.exception, (Timeout, TimeoutError))
 

@@ -98,11 +98,9 @@ Diagnostic Place(const Violation& violation, const std::vector<std::string>& axe
 
 }  // namespace
 
-v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::vector<std::string>& metrics, const DrawnCells& drawn,
-                   const VariableValues& variables) {
+v1::Sweep MakeGrid(const ScenarioFile& base, const std::vector<std::string>& axes,
+                   const std::vector<std::string>& metrics, const DrawnCells& drawn) {
   v1::Sweep sweep;
-  const ScenarioFile base = ScenarioFile::Open(scenario, variables);
   for (const std::string& axis : axes) {
     *sweep.add_axes() = ReadAxis(axis, drawn.count > 0, base.variables());
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/input/variables.h"
+#include "cli/input/scenario_file.h"
 #include "contact/v1/scenario.pb.h"
 
 namespace contact::cli {
@@ -19,15 +19,13 @@ struct DrawnCells {
   std::int64_t seed = 0;
 };
 
-/// The sweep of a scenario file over some fields. Each axis is `FIELD=FIRST:LAST:COUNT`, in equal
+/// The sweep of a scenario over some fields. Each axis is `FIELD=FIRST:LAST:COUNT`, in equal
 /// steps, or `FIELD=A,B,C`, where FIELD is a path, or `var:NAME` for the fields whose value is the
 /// variable of this name, and the cells are all combinations; or, if `drawn.count` is not 0, each
 /// is `FIELD=LOW:HIGH` or `FIELD=A,B,C`, and the cells are drawn from them. Without `metrics` it
 /// is `iterations`. Prints advice on the standard error. Throws Failure: kUsage for an axis of
-/// another form or an unknown variable, kInvalidScenario with all mistakes, kLocal if there is no
-/// file.
-v1::Sweep MakeGrid(const std::string& scenario, const std::vector<std::string>& axes,
-                   const std::vector<std::string>& metrics, const DrawnCells& drawn = {},
-                   const VariableValues& variables = {});
+/// another form or an unknown variable, kInvalidScenario with all mistakes.
+v1::Sweep MakeGrid(const ScenarioFile& base, const std::vector<std::string>& axes,
+                   const std::vector<std::string>& metrics, const DrawnCells& drawn = {});
 
 }  // namespace contact::cli

@@ -18,6 +18,7 @@
 #include "cli/input/file_table.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
+#include "cli/input/templates.h"
 #include "cli/input/yaml_load.h"
 #include "cli/input/yaml_place.h"
 #include "cli/input/yaml_reader.h"
@@ -28,9 +29,11 @@ namespace {
 // A sweep while it is read: gathers mistakes at their places.
 class SweepFile {
  public:
-  SweepFile(std::string path, VariableValues variables)
+  // `shipped`: its base is a template, not a file.
+  SweepFile(std::string path, VariableValues variables, bool shipped = false)
       : path_(std::move(path)),
         variables_(std::move(variables)),
+        shipped_(shipped),
         tables_(std::filesystem::path(path_).parent_path().string()) {}
 
   v1::Sweep Read(const std::string& text) {
@@ -126,8 +129,13 @@ class SweepFile {
   }
 
   void OpenBase(const std::string& name) {
-    base_ = ScenarioFile::Open((std::filesystem::path(path_).parent_path() / name).string(),
-                               variables_);
+    const std::filesystem::path path = std::filesystem::path(path_).parent_path() / name;
+    if (shipped_) {
+      const std::string text(FindTemplate(path.stem().string()).text);
+      base_.emplace(path.stem().string(), text, variables_);
+    } else {
+      base_ = ScenarioFile::Open(path.string(), variables_);
+    }
     for (Diagnostic& mistake : base_->diagnostics()) mistakes_.push_back(std::move(mistake));
     *sweep_.mutable_base() = base_->scenario();
   }
@@ -155,6 +163,7 @@ class SweepFile {
 
   const std::string path_;
   VariableValues variables_;  ///< That are not the file's own.
+  const bool shipped_;
   YAML::Node root_;
   std::optional<ScenarioFile> base_;  ///< If it is a file of its own.
   FileTables tables_;                 ///< Of a base that is written here.
@@ -172,6 +181,10 @@ v1::Sweep OpenSweep(const std::string& path, const VariableValues& variables) {
 v1::Sweep ReadSweep(const std::string& path, const std::string& text,
                     const VariableValues& variables) {
   return SweepFile(path, variables).Read(text);
+}
+
+v1::Sweep OpenSweepTemplate(const std::string& name, const VariableValues& variables) {
+  return SweepFile(name, variables, true).Read(std::string(FindTemplate(name).text));
 }
 
 bool IsSweep(const std::string& text) {

@@ -20,6 +20,9 @@ v1::Sweep OpenSweep(const std::string& path, const VariableValues& variables = {
 v1::Sweep ReadSweep(const std::string& path, const std::string& text,
                     const VariableValues& variables = {});
 
+/// Reads the shipped sweep of this name; its base may be the name of a shipped scenario's file.
+v1::Sweep OpenSweepTemplate(const std::string& name, const VariableValues& variables = {});
+
 /// True if a document has a part that only a sweep has: `base` or `axes`.
 bool IsSweep(const std::string& text);
 

@@ -85,10 +85,14 @@ std::string Convergence(const v1::Job& job) {
              : v1::Job::Convergence_Name(job.convergence());
 }
 
+// Lists leave the spec out, but of a sweep they have the number of its cells.
+std::string KindOf(const v1::Job& job) { return job.progress().cells() > 0 ? "sweep" : "scenario"; }
+
 std::vector<Table::Column> ListColumns() {
   return {{"JOB"},
           {"STATE"},
           {"TITLE", false, 1},
+          {"KIND", false, 8},
           {"REASON", false, 5},
           {"CONVERGENCE", false, 3},
           {"MISSED", true, 4},
@@ -103,6 +107,7 @@ std::vector<Table::Cell> ListRow(const v1::Job& job) {
   return {ShortName(job.name()),
           {v1::Job::State_Name(job.state()), ToneOf(job.state())},
           TitleOf(job),
+          KindOf(job),
           job.state_reason().empty() ? "-" : job.state_reason(),
           Convergence(job),
           MissedCount(job),

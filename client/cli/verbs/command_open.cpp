@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -34,6 +35,12 @@ std::string PageOf(Client& client, const std::string& job) {
                               file.empty() ? "FILE" : file));
   }
   if (job.empty()) return address + "/";
+  if (std::filesystem::is_regular_file(job)) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{0} is a file, not a job: `contactctl submit {0}` makes a job of a "
+                              "scenario or sweep, `contactctl open last` shows its page",
+                              job));
+  }
   const std::string name = FindJob(client, job);
   return fmt::format("{}/runs/{}", address, name.substr(name.find('/') + 1));
 }

@@ -1,4 +1,6 @@
 #include <memory>
+#include <utility>
+#include <variant>
 
 #include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
@@ -25,10 +27,9 @@ struct RunArguments {
 };
 
 // Mistakes that only the server finds are shown at their place in the file, like the others.
-v1::Job Create(Client& client, const RunArguments& arguments) {
-  ScenarioFile file = arguments.scenario.Open(client);
+v1::Job Create(Client& client, ScenarioFile file, const Submission& submission) {
   TellAdvice(file);
-  v1::CreateJobRequest request = arguments.submission.Request();
+  v1::CreateJobRequest request = submission.Request();
   *request.mutable_job()->mutable_scenario() = file.scenario();
   try {
     return client.Call(&Client::Stub::CreateJob, request);
@@ -40,13 +41,22 @@ v1::Job Create(Client& client, const RunArguments& arguments) {
   }
 }
 
+v1::Job Create(Client& client, const v1::Sweep& sweep, const Submission& submission) {
+  v1::CreateJobRequest request = submission.Request();
+  *request.mutable_job()->mutable_sweep() = sweep;
+  return client.CallTellingAll(&Client::Stub::CreateJob, request);
+}
+
 ExitCode Submit(const RunArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  const v1::Job job = Create(client, arguments);
+  const auto create = [&](auto spec) {
+    return Create(client, std::move(spec), arguments.submission);
+  };
+  const v1::Job job = std::visit(create, arguments.scenario.Open(client));
   PrintJob(job, settings);
   if (settings.output == OutputFormat::kTable) {
-    Tell("Next:  contactctl watch {}\n", ShortName(job.name()));
+    Tell("Next:  contactctl {}watch {}\n", job.has_sweep() ? "sweep " : "", ShortName(job.name()));
   }
   return ExitCode::kOk;
 }
@@ -61,7 +71,8 @@ ExitCode Run(const RunArguments& arguments, const Settings& settings) {
   arguments.columns.Check(LedgerColumns(), settings);
   const auto deadline = settings.Deadline();
   Client client = Connect(settings);
-  const std::string name = Create(client, arguments).name();
+  const std::string name =
+      Create(client, arguments.scenario.OpenScenario(client), arguments.submission).name();
   const WatchEnd end = FollowRun(client, name, deadline, RowsOf(arguments.rows), settings);
   if (end != WatchEnd::kFinished) {
     return DetachOrCancel(client, end, name, arguments.cancel_on_interrupt, settings);

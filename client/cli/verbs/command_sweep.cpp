@@ -10,6 +10,7 @@
 #include "cli/export/provenance.h"
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
+#include "cli/input/templates.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_names.h"
@@ -29,6 +30,7 @@ namespace {
 
 struct SweepArguments {
   std::string file;
+  std::string shipped;  // Name of a template, instead of a file.
   std::string job;
   std::vector<std::string> variables;  // --var
   Submission submission;
@@ -95,11 +97,21 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
 // The sweep of a sweep file, or with --grid the scenario of the file with these axes.
 v1::Sweep Open(const SweepArguments& arguments) {
   const VariableValues variables = ParseVariables(arguments.variables);
-  if (arguments.grid.empty()) return OpenSweep(arguments.file, variables);
+  const std::string& shipped = arguments.shipped;
+  if (arguments.file.empty() == shipped.empty()) {
+    throw Failure(ExitCode::kUsage, "give a FILE or --template NAME, one of them");
+  }
+  if (arguments.grid.empty()) {
+    return shipped.empty() ? OpenSweep(arguments.file, variables)
+                           : OpenSweepTemplate(shipped, variables);
+  }
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
-  return MakeGrid(arguments.file, arguments.grid, arguments.map.metrics(), drawn, variables);
+  const auto base = shipped.empty()
+                        ? ScenarioFile::Open(arguments.file, variables)
+                        : ScenarioFile(shipped, std::string(FindTemplate(shipped).text), variables);
+  return MakeGrid(base, arguments.grid, arguments.map.metrics(), drawn);
 }
 
 ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
@@ -178,8 +190,9 @@ void AddAxes(CLI::App& run, SweepArguments* arguments) {
 
 void AddSource(CommandLine& line, CLI::App& run, SweepArguments* arguments) {
   AddOption(line, run, "FILE", &arguments->file, ValueKind::kScenarioFile,
-            "Sweep in YAML or JSON; - is the standard input. With --grid a scenario")
-      ->required();
+            "Sweep in YAML or JSON; - is the standard input. With --grid a scenario");
+  AddOption(line, run, "-t,--template", &arguments->shipped, ValueKind::kTemplate,
+            "Take what init would write, instead of a file");
   AddVariableFlag(run, &arguments->variables);
   AddAxes(run, arguments);
   run.add_flag("--cancel-on-interrupt", arguments->cancel_on_interrupt,

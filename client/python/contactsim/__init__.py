@@ -5,8 +5,8 @@ import importlib.metadata
 from .aio import AsyncClient
 from .client import Client
 from .comparing import Comparison, compare
-from .errors import (CallError, ContactError, DownloadFailed, InvalidScenario, JobNotFound,
-                     NotAllowed, Overloaded, RunFailed, Timeout, Unreachable, Violation)
+from .errors import (AmbiguousJob, CallError, ContactError, DownloadFailed, InvalidScenario,
+                     JobNotFound, NotAllowed, Overloaded, RunFailed, Timeout, Unreachable, Violation)
 from .measured import SignalComparison, compare_measured
 from .result import Result
 from .scenario import load_scenario, templates
@@ -15,7 +15,7 @@ from .tools import ToolFailed, translate
 from .watching import JobChange
 
 __all__ = [
-    "AsyncClient", "CallError", "Client", "Comparison", "ContactError", "DownloadFailed",
+    "AmbiguousJob", "AsyncClient", "CallError", "Client", "Comparison", "ContactError", "DownloadFailed",
     "InvalidScenario", "JobChange", "JobNotFound", "NotAllowed", "Overloaded", "Result",
     "RunFailed", "SignalComparison", "SweepResult", "Timeout", "ToolFailed", "Unreachable", "Violation",
     "compare", "compare_measured", "load_scenario", "templates", "translate"

@@ -8,18 +8,21 @@ import uuid
 from typing import Any, AsyncIterator, Callable, Iterable, Mapping
 
 import grpc
+import numpy as np
+import pandas as pd
 from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
 from . import pages
-from .calls import (TRIES, JobLike, address_of, create_request, deadline_of, ended, job_name,
+from .calls import (PAGE, TRIES, address_of, create_request, deadline_of, ended, labels_of,
                     open_channel)
 from .downloading import Download
 from .errors import CallError, RunFailed, from_rpc
+from .finding import JobLike, Search, job_frame, list_request
 from .keywords import hinted
 from .pages import PathLike
 from .progress import ProgressBar
 from .recording import KINDS, Recording
-from .result import Result
+from .result import Result, series_frame
 from .scenario import ScenarioLike
 from .sweeping import AxisValue, SweepResult, make_sweep
 from .watching import WHOLE, JobChange, Position, Roster, delivery_options
@@ -35,6 +38,10 @@ class AsyncClient:
 
     A scenario is a file, a template, a dict or a message, see load_scenario. `set` overrides its
     fields by their paths, `variables` those that a file declares.
+
+    A job is named by its ID or the beginning of it that no other job has, by `last`, the newest job,
+    by `last~2`, the second before it, or by what has its name: a Job, a Result, a row of `list()`.
+    Raises JobNotFound, or AmbiguousJob with the jobs that a text may mean.
     """
 
     def __init__(self, address: str | None = None, *, timeout_s: float = 10.0,
@@ -103,7 +110,8 @@ class AsyncClient:
         `timeout_s`; the job then goes on.
         """
         deadline = deadline_of(timeout_s)
-        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set), labels=labels)
+        job = job_pb2.Job(sweep=make_sweep(scenario, grid, metrics, variables, set),
+                          labels=labels_of(labels))
         request = job_service_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         with ProgressBar(progress) as bar:
             created: job_pb2.Job = await self._call(self._stub.CreateJob, request)
@@ -113,7 +121,8 @@ class AsyncClient:
                            timeout_s: float | None = None) -> SweepResult:
         """The cells of a sweep, once it has ended; raises RunFailed if it ended early, unless
         `failed`."""
-        return await self._sweep(job_name(job), deadline_of(timeout_s), ProgressBar(False), failed)
+        deadline = deadline_of(timeout_s)
+        return await self._sweep(await self._find(job), deadline, ProgressBar(False), failed)
 
     async def _sweep(self, name: str, deadline: float | None, bar: ProgressBar,
                      failed: bool = False) -> SweepResult:
@@ -151,10 +160,14 @@ class AsyncClient:
         `live_only` begins after the newest event. Of frame chunks that follow each other within
         `min_frame_interval_s` only the newest comes, and a gap for the others.
         """
-        position = Position(job_name(job), self.address, after_sequence, kinds,
-                            deadline_of(timeout_s), live_only=live_only,
-                            delivery=delivery_options(min_frame_interval_s))
-        return self._stream(self._stub.WatchJob, position)
+        position = Position("", self.address, after_sequence, kinds, deadline_of(timeout_s),
+                            live_only=live_only, delivery=delivery_options(min_frame_interval_s))
+        return self._watch(Search(job), position)
+
+    async def _watch(self, search: Search, position: Position) -> AsyncIterator[event_pb2.Event]:
+        position.name = await self._search(search)
+        async for event in self._stream(self._stub.WatchJob, position):
+            yield event
 
     def watch_jobs(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
                    timeout_s: float | None = None) -> AsyncIterator[JobChange]:
@@ -175,8 +188,9 @@ class AsyncClient:
         JobNotFound, DownloadFailed, and Timeout after `timeout_s`; the part then stays.
         """
         target = pathlib.Path(path or pathlib.PurePosixPath(artifact).name)
-        with Download(job_name(job), artifact, target, self.address,
-                      deadline_of(timeout_s)) as download:
+        deadline = deadline_of(timeout_s)
+        name = await self._find(job)
+        with Download(name, artifact, target, self.address, deadline) as download:
             async for _ in self._stream(self._stub.ReadArtifact, download):
                 pass
         return target
@@ -200,47 +214,93 @@ class AsyncClient:
 
     async def wait(self, job: JobLike, *, timeout_s: float | None = None) -> job_pb2.Job:
         """The job once it has ended, however it did."""
-        async for _ in self.watch(job, kinds=["state_changed"], timeout_s=timeout_s):
+        deadline = deadline_of(timeout_s)
+        name = await self._find(job)
+        position = Position(name, self.address, 0, ["state_changed"], deadline)
+        async for _ in self._stream(self._stub.WatchJob, position):
             pass
-        return await self.get(job)
+        return await self.get(name)
 
     async def result(self, job: JobLike, *, failed: bool = False,
                      timeout_s: float | None = None) -> Result:
         """The result of a job: waits for its end and fetches all that it recorded. Raises RunFailed if
         it did not succeed, unless `failed`."""
-        return await self._follow(job_name(job), None, deadline_of(timeout_s), ProgressBar(False),
-                                  failed)
+        deadline = deadline_of(timeout_s)
+        return await self._follow(await self._find(job), None, deadline, ProgressBar(False), failed)
+
+    async def series(self, job: JobLike, channels: Iterable[str] = (), *,
+                     start_time_s: float | None = None, end_time_s: float | None = None,
+                     max_points: int = 1000) -> pd.DataFrame:
+        """The recorded motion of a job, thinned so that no peak is lost, as `Result.series` has it: of
+        some channels, by default all, and of a part of the time. Also while the job runs."""
+        request = job_service_pb2.GetSeriesRequest(
+            name=await self._find(job), channels=channels, start_time_s=start_time_s,
+            end_time_s=end_time_s, max_points=max_points)
+        answer: job_service_pb2.Series = await self._call(self._stub.GetSeries, request)
+        arrays = {column.name: np.frombuffer(column.values, dtype="<f8") for column in answer.columns}
+        return series_frame(arrays, {column.name: column.unit for column in answer.columns})
 
     async def get(self, job: JobLike) -> job_pb2.Job:
         """The job as it is now, with its ledger so far."""
-        request = job_service_pb2.GetJobRequest(name=job_name(job))
+        request = job_service_pb2.GetJobRequest(name=await self._find(job))
         answer: job_pb2.Job = await self._call(self._stub.GetJob, request)
         return answer
 
-    def list(self, *, states: Iterable[str] = (),
-             labels: Mapping[str, str] | None = None) -> AsyncIterator[job_pb2.Job]:
-        """Jobs, newest first, page by page; without specs and ledgers."""
-        return self._pages(job_service_pb2.ListJobsRequest(
-            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels))
+    async def list(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
+                   name_prefix: str = "", limit: int | None = None) -> pd.DataFrame:
+        """The jobs, newest first: a row a job, indexed by its name; by default all.
 
-    async def _pages(self, request: job_service_pb2.ListJobsRequest) -> AsyncIterator[job_pb2.Job]:
-        while True:
+        Columns: `title`, `kind` (scenario or sweep), `state`, `convergence`, `reason`, `created` and
+        `ended` in UTC, `owner`, `labels`. `states` are words such as `SUCCEEDED`; jobs have one of
+        them, all the labels, and a name that begins so. A row names its job:
+        `client.result(client.list().iloc[0])`.
+        """
+        jobs: list[job_pb2.Job] = []
+        async for job in self._pages(list_request(states, labels, name_prefix), limit):
+            jobs.append(job)
+        return job_frame(jobs)
+
+    def jobs(self, *, states: Iterable[str] = (), labels: Mapping[str, str] | None = None,
+             name_prefix: str = "") -> AsyncIterator[job_pb2.Job]:
+        """The jobs of `list` as messages, page by page; without specs and ledgers."""
+        return self._pages(list_request(states, labels, name_prefix), None)
+
+    async def last(self, back: int = 0) -> job_pb2.Job:
+        """The newest job, or that which is so many before it."""
+        return await self.get(f"last~{back}")
+
+    async def _pages(self, request: job_service_pb2.ListJobsRequest,
+                     limit: int | None) -> AsyncIterator[job_pb2.Job]:
+        left = float("inf") if limit is None else limit
+        while left > 0:
+            request.page_size = int(min(left, PAGE))
             page: job_service_pb2.ListJobsResponse = await self._call(self._stub.ListJobs, request)
             for job in page.jobs:
                 yield job
+            left -= len(page.jobs)
             request.page_token = page.next_page_token
             if not request.page_token:
                 return
 
+    async def _find(self, job: JobLike) -> str:
+        """The name of a job."""
+        return await self._search(Search(job))
+
+    async def _search(self, search: Search) -> str:
+        if search.request is None:
+            return search.name
+        return search.found(await self._call(self._stub.ListJobs, search.request))
+
     async def cancel(self, job: JobLike) -> job_pb2.Job:
         """Asks a job to stop; what it recorded is kept."""
-        request = job_service_pb2.CancelJobRequest(name=job_name(job))
+        request = job_service_pb2.CancelJobRequest(name=await self._find(job))
         answer: job_pb2.Job = await self._call(self._stub.CancelJob, request)
         return answer
 
     async def delete(self, job: JobLike) -> None:
         """Removes an ended job and its events."""
-        await self._call(self._stub.DeleteJob, job_service_pb2.DeleteJobRequest(name=job_name(job)))
+        request = job_service_pb2.DeleteJobRequest(name=await self._find(job))
+        await self._call(self._stub.DeleteJob, request)
 
     async def server_info(self) -> job_service_pb2.ServerInfo:
         """What the server is and accepts."""
@@ -253,7 +313,7 @@ class AsyncClient:
 
         Without matplotlib it has no figures.
         """
-        names = [job_name(job) for job in jobs]
+        names = [await self._find(job) for job in jobs]
         return await asyncio.to_thread(pages.report, self._files, self.address, names, path)
 
     async def paper(self, folder: PathLike = "paper", items: Iterable[str] = ("all",)) -> bool:

@@ -7,7 +7,7 @@ import pathlib
 import stat
 import time
 import uuid
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, Mapping, Sequence
 
 import grpc
 from contact.v1 import job_pb2, job_service_pb2
@@ -16,8 +16,7 @@ from .errors import RunFailed
 from .recording import Recording
 from .result import Result
 from .scenario import ScenarioLike, load_scenario
-
-JobLike = Union[str, job_pb2.Job, Result]
+from .spelling import shown
 
 OPTIONS: Sequence[tuple[str, int]] = (
     ("grpc.max_receive_message_length", 256 << 20),  # A ledger has no limit but this.
@@ -30,6 +29,7 @@ OPTIONS: Sequence[tuple[str, int]] = (
     ("grpc.enable_http_proxy", 0),  # A proxy for the web does not know contactd.
 )
 TRIES = 3  # Of a unary call.
+PAGE = 500  # Jobs of a list that come at once.
 
 
 def address_of(address: str | None) -> str:
@@ -75,8 +75,19 @@ def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,
                    variables: Mapping[str, Any] | None, labels: Mapping[str, str] | None,
                    request_id: str | None) -> job_service_pb2.CreateJobRequest:
     """The request that submits a scenario."""
-    job = job_pb2.Job(scenario=load_scenario(scenario, variables, set=set_), labels=labels)
+    job = job_pb2.Job(scenario=load_scenario(scenario, variables, set=set_), labels=labels_of(labels))
     return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
+
+
+def labels_of(labels: Mapping[str, str] | None) -> Mapping[str, str] | None:
+    """The labels of a job. Raises TypeError unless they are texts by texts."""
+    if labels is not None and not isinstance(labels, Mapping):
+        raise TypeError(f'labels are a dict such as {{"study": "chain"}}, and not {shown(labels)}')
+    for key, value in (labels or {}).items():
+        if not isinstance(key, str) or not isinstance(value, str):
+            raise TypeError(f"labels are texts, and {key!r}: {value!r} is not; "
+                            f"write {{{str(key)!r}: {str(value)!r}}}")
+    return labels
 
 
 def ended(job: job_pb2.Job, recording: Recording, failed: bool = False) -> Result:
@@ -91,14 +102,6 @@ def ended(job: job_pb2.Job, recording: Recording, failed: bool = False) -> Resul
         del job.groups[:]
         job.groups.extend(recording.groups.values())
     return Result(job, recording)
-
-
-def job_name(job: JobLike) -> str:
-    """`jobs/ID` for a job, a result, `jobs/ID` or `ID`."""
-    if isinstance(job, Result):
-        job = job.job
-    name = job.name if isinstance(job, job_pb2.Job) else job
-    return name if name.startswith("jobs/") else f"jobs/{name}"
 
 
 def deadline_of(timeout_s: float | None) -> float | None:

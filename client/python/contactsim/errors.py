@@ -6,8 +6,8 @@ import dataclasses
 from typing import Any, Iterable, Mapping
 
 import grpc
+from contact.rpc import error_details_pb2, status_pb2
 from contact.v1 import job_pb2
-from google.rpc import error_details_pb2, status_pb2
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,6 +54,18 @@ class Unreachable(CallError):
 
 class JobNotFound(CallError):
     """The server has no such job, or the job has no such artifact; `reason` tells which."""
+
+
+class AmbiguousJob(ContactError, LookupError):
+    """Several jobs have names that begin so; `jobs` are the newest of them."""
+
+    def __init__(self, begin: str, jobs: Iterable[job_pb2.Job], more: bool) -> None:
+        self.jobs = list(jobs)
+        lines = [f"several jobs begin with {begin.removeprefix('jobs/')!r}:"]
+        for job in self.jobs:
+            lines.append(f"  {job.name.removeprefix('jobs/')}  {job.create_time.ToJsonString()}  "
+                         f"{job_pb2.Job.State.Name(job.state)}  {job.title}".rstrip())
+        super().__init__("\n".join(lines + ["  … and more"] * more))
 
 
 class NotAllowed(CallError):

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from .figures import PRESETS, preset_figure
 from .figures.figure import keep_largest
+from .spelling import expected
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .result import Result
+
+#: The names of the presets, for those who check types.
+Preset = Literal[
+    "position", "displacement", "velocity", "force", "deformation-velocity", "hysteresis",
+    "restitution", "iterations", "energy", "force-map", "velocity-map", "force-waterfall",
+    "velocity-waterfall"]
 
 
 class Plots:
@@ -19,12 +26,12 @@ class Plots:
     def __init__(self, result: Result) -> None:
         self._result = result
 
-    def __call__(self, preset: str, ax: Any = None) -> Any:
+    def __call__(self, preset: Preset, ax: Any = None) -> Any:
         """The plot with this name, such as `force` or `deformation-velocity`; of a preset with two
         panels, `ax` are two Axes, and both are returned."""
         name = preset.replace("_", "-")
         if name not in PRESETS:
-            raise ValueError(f"there is no preset {preset!r}; one of {', '.join(PRESETS)}")
+            raise ValueError(f"there is no preset {preset!r}" + expected(name, PRESETS))
         import matplotlib.pyplot as plt  # Only who plots needs matplotlib.
         import numpy as np
 

@@ -13,6 +13,7 @@ from .comparing import Comparison, compare
 from .figures import PRESETS, Figure, FigureError, preset_figure
 from .figures.figure import thin
 from .figures.overlay import overlay_figure
+from .figures.words import WORDS
 from .html import Row, escape, page, table
 from .model import solver_in_full
 from .result import Result
@@ -75,7 +76,7 @@ def _figures(run: Result, place: int) -> str:
             figure = preset_figure(preset, run)
         except FigureError:
             continue
-        figure.title = preset
+        figure.title = WORDS["titles"][preset]
         shown.append(_inline(figure, f"f{place}-{preset}"))
     return "".join(shown)
 

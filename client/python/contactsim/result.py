@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 import pandas as pd
@@ -16,12 +16,20 @@ from .measured import MeasuredLike, SignalComparison, compare_measured
 from .model import Array
 from .plotting import Plots
 from .recording import Recording
+from .spelling import expected
 
 if TYPE_CHECKING:
     import xarray
 
 _LEDGER = ("contact", "number", "group", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
+
+
+class NoChannel(KeyError):
+    """The run recorded no such column; the text names those that are near."""
+
+    def __str__(self) -> str:  # That of KeyError is in quotes.
+        return str(self.args[0])
 
 
 class Result:
@@ -62,7 +70,7 @@ class Result:
         try:
             return self.arrays[name]
         except KeyError:
-            raise KeyError(f"{name!r}; there are {', '.join(self.arrays)}") from None
+            raise NoChannel(f"there is no channel {name!r}" + expected(str(name), self.arrays)) from None
 
     @functools.cached_property
     def series(self) -> pd.DataFrame:
@@ -71,19 +79,30 @@ class Result:
 
         It is a copy of `arrays`, made once, and may be changed.
         """
-        named = {f"{name} [{self.units[name]}]": values for name, values in self.arrays.items()}
-        time = named.pop("time [s]", np.empty(0))
-        return pd.DataFrame(named, index=pd.Index(np.array(time), name="time [s]"), copy=True)
+        return series_frame(self.arrays, self.units)
 
     @functools.cached_property
     def xr(self) -> xarray.Dataset:
-        """The trajectory over `time`, with units as attributes. A copy, as `series` is. Needs
-        xarray."""
+        """The trajectory over `time` and `body` or `contact`, with units as attributes:
+        `xr.velocity.sel(body="B1")`, `xr.contact_force.sel(contact="B1-B2")`. A copy, as `series` is.
+        Needs xarray."""
         import xarray  # Only who asks for it needs it.
 
-        variables = {name: ("time", np.array(values), {"units": self.units[name]})
-                     for name, values in self.arrays.items()}
-        return xarray.Dataset(variables, attrs=self.provenance)
+        bodies = {body.name for body in self.scenario.bodies}
+        named = [name.rpartition(".") for name in self.arrays if name != "time"]
+        variables: dict[str, Any] = {}
+        for quantity in dict.fromkeys(quantity for _, _, quantity in named):
+            owners = [owner for owner, _, other in named if other == quantity]
+            dimension = "body" if bodies.issuperset(owners) else "contact"
+            columns = [f"{owner}.{quantity}" for owner in owners]
+            variables[quantity] = xarray.DataArray(
+                np.column_stack([self.arrays[column] for column in columns]),
+                {"time": self["time"], dimension: owners}, ("time", dimension),
+                attrs={"units": self.units[columns[0]]})
+        data = xarray.Dataset(variables, {"time": np.array(self.arrays.get("time", ()))},
+                              self.provenance)
+        data.time.attrs["units"] = "s"
+        return data
 
     @functools.cached_property
     def cycles(self) -> pd.DataFrame:
@@ -154,6 +173,13 @@ class Result:
         ledger = self.cycles[list(_LEDGER)].to_html(index=False, max_rows=20)
         bodies = self.bodies.to_html(index=False, max_rows=20)
         return f"<p><b>{html.escape(self._headline())}</b></p>{ledger}{bodies}"
+
+
+def series_frame(arrays: Mapping[str, Array], units: Mapping[str, str]) -> pd.DataFrame:
+    """Columns such as `B1.velocity [m/s]` over an index of `time [s]`; copies."""
+    named = {f"{name} [{units[name]}]": values for name, values in arrays.items()}
+    time = named.pop("time [s]", np.empty(0))
+    return pd.DataFrame(named, index=pd.Index(np.array(time), name="time [s]"), copy=True)
 
 
 def _row(message: Any) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from google.protobuf.descriptor import Descriptor, EnumDescriptor, FieldDescript
 from .errors import InvalidScenario, Violation
 from .file_tables import FILE_KEYS, may_be_in_file, read_into
 from .model import contact_names
+from .spelling import expected, shown
 from .units import steps_of
 
 _VARIABLE = re.compile(r"\$\$\{|\$\{([^}]+)\}")
@@ -44,6 +45,8 @@ def read_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None,
                   set_: Mapping[str, Any] | None
                   ) -> tuple[scenario_pb2.Scenario, dict[str, list[str]]]:
     """As load_scenario, and the fields of each variable: those whose whole value it is."""
+    _require_dict(variables, "variables", '{"height_m": 0.5}')
+    _require_dict(set_, "set", '{"contacts[0].restitution": 0.7}')
     reader = _Reader(_folder(source))
     scenario = scenario_pb2.Scenario()
     if isinstance(source, scenario_pb2.Scenario):
@@ -60,6 +63,11 @@ def read_scenario(source: ScenarioLike, variables: Mapping[str, Any] | None,
     if reader.violations:
         raise InvalidScenario(reader.violations)
     return scenario, reader.fields
+
+
+def _require_dict(given: Any, name: str, example: str) -> None:
+    if given is not None and not isinstance(given, Mapping):
+        raise TypeError(f"{name} is a dict such as {example}, and not {shown(given)}")
 
 
 def templates() -> list[str]:
@@ -81,15 +89,17 @@ def _template_folder() -> pathlib.Path:
     return packed if packed.is_dir() else here.parents[2] / "scenarios"
 
 
-def _document(source: str | os.PathLike[str]) -> Any:
+def _document(source: Any) -> Any:
     """What a file holds, or the template of this name."""
+    if not isinstance(source, (str, os.PathLike)):
+        raise TypeError("a scenario is a file, the name of a template, a dict or a "
+                        f"contact.v1.Scenario, and not {shown(source)}")
     path = pathlib.Path(source)
     if not path.is_file() and isinstance(source, str):
         names = templates()
         if source not in names:
-            near = difflib.get_close_matches(source, names, 1)
-            hint = f"did you mean {near[0]!r}?" if near else f"templates are {', '.join(names)}"
-            raise FileNotFoundError(f"there is no file and no template {source!r}; {hint}")
+            raise FileNotFoundError(f"there is no file and no template {source!r}"
+                                    + expected(source, names))
         path = _template_folder() / f"{source}.yaml"
     # BaseLoader: every scalar stays text, so that 1e8, on and 007 mean what they say.
     return yaml.load(path.read_bytes(), yaml.BaseLoader)
@@ -109,8 +119,7 @@ class _Reader:
         values = dict(declared) if isinstance(declared, Mapping) else {}
         for name in given:
             if name not in values:
-                known = ", ".join(values) or "none"
-                raise ValueError(f"unknown variable '{name}': the file has {known}")
+                raise ValueError(f"unknown variable '{name}'" + expected(name, values))
         if not isinstance(source, Mapping) or "variables" not in source:
             return source
         values.update(given)

@@ -11,6 +11,7 @@ from google.protobuf.descriptor import FieldDescriptor
 
 from .labels import axis_label
 from .scenario import ScenarioLike, read_scenario
+from .spelling import expected, shown
 from .units import field_at, unit_of, unit_of_metric
 
 if TYPE_CHECKING:
@@ -36,9 +37,12 @@ def make_sweep(scenario: ScenarioLike, grid: Mapping[str, Iterable[AxisValue]],
     return scenario_pb2.Sweep(base=base, axes=axes, metrics=list(metrics))
 
 
-def _axis(name: str, values: Iterable[AxisValue],
+def _axis(name: str, values: Any,
           variables: Mapping[str, list[str]]) -> scenario_pb2.Sweep.Axis:
     """The axis of a path, or of all numbers that are the variable `var:NAME`."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"the axis {name!r} is a list of values, as in {{{name!r}: [0.5, 0.7]}}, and "
+                        f"not {shown(values)}")
     axis = scenario_pb2.Sweep.Axis(field=name)
     if name.startswith(_VARIABLE):
         paths = _numbers(name[len(_VARIABLE):], variables)
@@ -50,8 +54,7 @@ def _axis(name: str, values: Iterable[AxisValue],
 
 def _numbers(name: str, variables: Mapping[str, list[str]]) -> list[str]:
     if name not in variables:
-        known = ", ".join(variables) or "none"
-        raise ValueError(f"unknown variable '{name}': the scenario has {known}")
+        raise ValueError(f"unknown variable '{name}'" + expected(name, variables))
     paths = []
     for path in variables[name]:
         field = field_at(scenario_pb2.Scenario.DESCRIPTOR, path)

@@ -11,6 +11,8 @@ import grpc
 from contact.v1 import event_pb2, job_pb2, job_service_pb2
 
 from .errors import from_rpc
+from .finding import state_of
+from .spelling import expected
 
 FINAL = (job_pb2.Job.SUCCEEDED, job_pb2.Job.FAILED, job_pb2.Job.CANCELLED)
 
@@ -18,6 +20,9 @@ _FIRST_PAUSE_S = 0.2
 _LONGEST_PAUSE_S = 10.0
 _GIVE_UP_AFTER_S = 300.0
 _GIVE_UP_AT_FIRST_S = 3.0  # Without any message yet: there may be no server at all.
+
+# What an event can be about.
+_PAYLOADS = [field.name for field in event_pb2.Event.DESCRIPTOR.oneofs_by_name["payload"].fields]
 
 # Ends of a stream after which the same question may be asked again.
 _PASSING = (grpc.StatusCode.UNAVAILABLE, grpc.StatusCode.CANCELLED, grpc.StatusCode.UNKNOWN,
@@ -88,7 +93,11 @@ class Position(Link):
                  live_only: bool = False,
                  delivery: job_service_pb2.DeliveryOptions | None = None) -> None:
         super().__init__(address, deadline)
-        self._name, self._kinds = name, tuple(kinds)
+        kinds = tuple(kinds)
+        for kind in kinds:
+            if kind not in _PAYLOADS:
+                raise ValueError(f"there is no kind of event {kind!r}" + expected(kind, _PAYLOADS))
+        self.name, self._kinds = name, kinds
         self._sequence = after_sequence
         self._live_only = live_only  # Has not begun yet.
         self._delivery = delivery
@@ -96,7 +105,7 @@ class Position(Link):
     def request(self) -> job_service_pb2.WatchJobRequest:
         """What to ask now."""
         return job_service_pb2.WatchJobRequest(
-            name=self._name, after_sequence=self._sequence, kinds=self._kinds,
+            name=self.name, after_sequence=self._sequence, kinds=self._kinds,
             live_only=self._live_only, delivery=self._delivery)
 
     def take(self, message: job_service_pb2.WatchJobResponse) -> list[event_pb2.Event]:
@@ -135,7 +144,7 @@ class Roster(Link):
                  deadline: float | None) -> None:
         super().__init__(address, deadline)
         self._request = job_service_pb2.WatchJobsRequest(
-            states=[job_pb2.Job.State.Value(state) for state in states], labels=labels)
+            states=[state_of(state) for state in states], labels=labels)
         self._known: dict[str, tuple[int, int]] = {}  # State and attempt of each job.
         self._unconfirmed: set[str] = set()  # Known, and not in the snapshot yet.
 

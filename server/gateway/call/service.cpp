@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "gateway/openapi/openapi.h"
 #include "gateway/protocol/rpc_request.h"
 
 namespace contact::gateway {
@@ -29,6 +30,9 @@ HttpAnswer Service::Answer(const HttpRequest& request) const {
     return answer;
   }
   if (request.path() == "/healthz") return PlainAnswer(200, "ok");
+  if (request.path() == "/v1/openapi.json") {
+    return {200, {{"content-type", "application/json"}}, std::string(OpenApiDocument())};
+  }
   if (request.path() != "/metrics") return File(request);
   if (!options_.metrics) {
     return PlainAnswer(403, "metrics are at --metrics-listen where callers are asked who they are");

@@ -25,7 +25,7 @@ class GridSweepTest : public testing::Test {
   GridSweepTest() { WriteText(kScenario, file_); }
 
   v1::Sweep Grid(const std::vector<std::string>& axes, const DrawnCells& drawn = {}) {
-    return MakeGrid(file_, axes, {}, drawn);
+    return MakeGrid(ScenarioFile::Open(file_), axes, {}, drawn);
   }
 
   Failure Refused(const std::vector<std::string>& axes, const DrawnCells& drawn = {}) {
@@ -68,7 +68,8 @@ TEST_F(GridSweepTest, BaseAndMetricComeAlong) {
   EXPECT_EQ(sweep.base().bodies(1).name(), "B");
   EXPECT_THAT(sweep.metrics(), ElementsAre("iterations"));
   EXPECT_EQ(sweep.combination(), v1::Sweep::COMBINATION_UNSPECIFIED);
-  EXPECT_THAT(MakeGrid(file_, {"contacts[0].restitution=0.5"}, {"cycles[0].mu", "steps"}).metrics(),
+  const ScenarioFile base = ScenarioFile::Open(file_);
+  EXPECT_THAT(MakeGrid(base, {"contacts[0].restitution=0.5"}, {"cycles[0].mu", "steps"}).metrics(),
               ElementsAre("cycles[0].mu", "steps"));
 }
 
@@ -136,8 +137,9 @@ TEST_F(GridSweepTest, AnAxisOverAVariableSetsAllItsFields) {
 TEST_F(GridSweepTest, VariablesAreThoseOfTheScenario) {
   WriteText("variables: {end: 1e-3}\n" + std::string(kScenario).replace(12, 4, "${end}"), file_);
   const std::vector<std::string> axes = {"contacts[0].restitution=0.5"};
-  EXPECT_EQ(MakeGrid(file_, axes, {}, {}, {{"end", "2e-3"}}).base().end_time_s(), 2e-3);
-  EXPECT_THROW(MakeGrid(file_, axes, {}, {}, {{"begin", "0"}}), Failure);
+  EXPECT_EQ(MakeGrid(ScenarioFile::Open(file_, {{"end", "2e-3"}}), axes, {}).base().end_time_s(),
+            2e-3);
+  EXPECT_THROW(MakeGrid(ScenarioFile::Open(file_, {{"begin", "0"}}), axes, {}), Failure);
 }
 
 }  // namespace

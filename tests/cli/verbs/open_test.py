@@ -25,6 +25,11 @@ class OpenTest(ServerTest):
             self.assertRegex(self.open(job),
                              rf"^http://127\.0\.0\.1:\d+/runs/{name.removeprefix('jobs/')}\n$")
 
+    def test_a_file_is_told_with_the_verb_that_makes_a_job_of_it(self):
+        file = self.folder / "chain.yaml"
+        file.write_text("title: x\n")
+        self.assertIn(f"contactctl submit {file}", self.open(str(file), code=2))
+
     def test_it_gives_the_address_to_the_browser(self):
         seen = self.folder / "seen"
         browser = self.folder / "browser"

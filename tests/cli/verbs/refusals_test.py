@@ -6,6 +6,7 @@ import unittest
 
 from cli_case import CHAIN, SCENARIOS, SPRING, CliTest
 
+TABLE_3 = SCENARIOS / "table-3-sweep.yaml"
 NOWHERE = "127.0.0.1:1"  # Where no server is.
 
 
@@ -110,6 +111,13 @@ class RefusalsOfAServer(CliTest):
                       self.refused("report", sweep, "-f", self.folder / "r.html", code=2))
         self.assertIn("is a sweep, not a run", self.refused("run", "--like", sweep, code=2))
         self.assertEqual(list(self.folder.glob("r.html")), [])
+        self.assertIn(f"contactctl sweep run {TABLE_3}", self.refused("run", TABLE_3, code=2))
+        later = self.run_it("submit", TABLE_3, "-o", "name")[0].strip()
+        shipped = self.run_it("sweep", "run", "-t", "table-3-sweep", "-o", "name")[0].strip()
+        self.run_it("wait", later)
+        self.assertEqual(self.server.get(later).spec_sha256, self.server.get(shipped).spec_sha256)
+        self.assertEqual(self.run_it("list", "-o", "csv", "--columns", "kind")[0],
+                         "kind\nsweep\nsweep\nsweep\n")
         self.assertIn("there is no cell 2; the last is 1",
                       self.refused("sweep", "cell", sweep, 2, code=2))
 

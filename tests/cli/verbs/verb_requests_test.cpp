@@ -302,6 +302,21 @@ TEST_F(VerbRequestsTest, LikeRepeatsTheScenarioOfAJobWithItsChanges) {
   EXPECT_DOUBLE_EQ(asked[0].job().scenario().end_time_s(), 1);
 }
 
+TEST_F(VerbRequestsTest, SubmitTakesSweepsOfTemplatesAndJobs) {
+  v1::Sweep& sweep = *server_.Add("jobs/s", v1::Job::SUCCEEDED).mutable_sweep();
+  sweep.add_metrics("iterations");
+  const End end = Run({"submit", "-t", "table-3-sweep", "-o", "name"});
+  EXPECT_EQ(end.code, ExitCode::kOk) << end.told;
+  EXPECT_THAT(end.printed, testing::StartsWith("jobs/"));
+  Run({"submit", "--like", "s"});
+  const auto asked = server_.Asked<v1::CreateJobRequest>();
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].job().sweep().axes_size(), 2);
+  EXPECT_EQ(asked[0].job().sweep().base().bodies_size(), 3);
+  EXPECT_EQ(asked[1].job().sweep().metrics(0), "iterations");
+  EXPECT_EQ(Run({"submit", "--like", "s", "--var", "a=1"}).code, ExitCode::kUsage);
+}
+
 TEST_F(VerbRequestsTest, SweepIsNotRepeatedAsARun) {
   server_.Add("jobs/s", v1::Job::SUCCEEDED).mutable_sweep()->add_metrics("iterations");
   const End end = Run({"run", "--like", "s"});

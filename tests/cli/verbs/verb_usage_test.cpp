@@ -38,7 +38,10 @@ TEST(VerbUsageTest, FormatThatACommandDoesNotPrintIsRefused) {
 TEST(VerbUsageTest, RunTakesExactlyOneScenario) {
   ExpectUsage({"run"}, "give a FILE, --template NAME or --like JOB");
   ExpectUsage({"run", "a.yaml", "-t", "two-balls"}, "one of them");
-  ExpectUsage({"submit", "-t", "table-3-sweep"}, "is a sweep");
+  ExpectUsage({"run", "-t", "table-3-sweep"}, "contactctl sweep run -t table-3-sweep");
+  ExpectUsage({"submit", "-t", "table-3-sweep", "--set", "title=T"}, "--set is for scenarios");
+  ExpectUsage({"sweep", "run"}, "give a FILE or --template NAME");
+  ExpectUsage({"sweep", "run", "a.yaml", "-t", "table-3-sweep"}, "one of them");
   ExpectUsage({"run", "-t", "tow-balls"}, "did you mean 'two-balls'?");
   ExpectUsage({"run", "-t", "two-balls", "--set", "contacts"}, "--set");
 }

@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/input/no_limits.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
+#include "cli/input/yaml_load.h"
 #include "cli/link/find_job.h"
 #include "cli/link/job_source.h"
 #include "cli/text/render_json.h"
@@ -45,21 +47,40 @@ void RequireNoTemplate(const std::string& file) {
 
 void ScenarioSource::AddTo(CommandLine& line, CLI::App& command) {
   AddOption(line, command, "FILE", &file_, ValueKind::kScenarioFile,
-            "Scenario in YAML or JSON; - is the standard input");
+            "Scenario, or of submit a sweep, in YAML or JSON; - is the standard input");
   AddOption(line, command, "--like", &like_, ValueKind::kJob,
             "Repeat this job instead of a file; on the same server bit for bit");
   AddOption(line, command, "-t,--template", &template_, ValueKind::kTemplate,
-            "Take a scenario that init would write, instead of a file");
+            "Take what init would write, instead of a file");
   Repeatable(AddOption(line, command, "--set", &overrides_, ValueKind::kAssignment,
                        "Override a field, such as contacts[0].restitution=0.7; repeatable"));
   AddVariableFlag(command, &variables_);
 }
 
-ScenarioFile ScenarioSource::Open(Client& client) const {
-  return Checked(Read(client), overrides_, kNoLimits);
+ScenarioSource::Spec ScenarioSource::Open(Client& client) const {
+  Spec spec = Read(client);
+  if (auto* file = std::get_if<ScenarioFile>(&spec)) {
+    return Checked(std::move(*file), overrides_, kNoLimits);
+  }
+  if (overrides_.empty()) return spec;
+  throw Failure(ExitCode::kUsage, "--set is for scenarios; of a sweep change base and axes");
 }
 
-ScenarioFile ScenarioSource::Read(Client& client) const {
+ScenarioFile ScenarioSource::OpenScenario(Client& client) const {
+  Spec spec = Open(client);
+  if (auto* file = std::get_if<ScenarioFile>(&spec)) return std::move(*file);
+  if (!like_.empty()) {
+    throw Failure(ExitCode::kUsage,
+                  fmt::format("{} is a sweep, not a run", FindJob(client, like_)));
+  }
+  throw Failure(
+      ExitCode::kUsage,
+      fmt::format("{0} is a sweep: `contactctl sweep run {1}{0}` shows its cells, `contactctl "
+                  "submit {1}{0}` leaves it to the server",
+                  template_.empty() ? file_ : template_, template_.empty() ? "" : "-t "));
+}
+
+ScenarioSource::Spec ScenarioSource::Read(Client& client) const {
   const std::array sources = {file_.empty(), like_.empty(), template_.empty()};
   if (std::ranges::count(sources, false) != 1) {
     throw Failure(ExitCode::kUsage, "give a FILE, --template NAME or --like JOB, one of them");
@@ -67,25 +88,26 @@ ScenarioFile ScenarioSource::Read(Client& client) const {
   if (!template_.empty()) return ReadTemplate();
   if (!like_.empty()) return ReadJob(client);
   RequireNoTemplate(file_);
-  return ScenarioFile::Open(file_, ParseVariables(variables_));
+  const std::string text = ReadYaml(file_);
+  if (IsSweep(text)) return ReadSweep(file_, text, ParseVariables(variables_));
+  return ScenarioFile(file_ == "-" ? "<stdin>" : file_, text, ParseVariables(variables_));
 }
 
-ScenarioFile ScenarioSource::ReadJob(Client& client) const {
+ScenarioSource::Spec ScenarioSource::ReadJob(Client& client) const {
   const v1::Job job = GetJob(client, FindJob(client, like_));
-  if (job.has_sweep()) {
-    throw Failure(ExitCode::kUsage, fmt::format("{} is a sweep, not a run", job.name()));
-  }
   TellOfOtherServer(client, job);
-  return {job.name(), ToJsonLine(job.scenario()), ParseVariables(variables_)};
+  if (!job.has_sweep()) {
+    return ScenarioFile(job.name(), ToJsonLine(job.scenario()), ParseVariables(variables_));
+  }
+  if (variables_.empty()) return job.sweep();
+  throw Failure(ExitCode::kUsage,
+                fmt::format("--var: {} is a job and has no variables", job.name()));
 }
 
-ScenarioFile ScenarioSource::ReadTemplate() const {
+ScenarioSource::Spec ScenarioSource::ReadTemplate() const {
   const std::string text(FindTemplate(template_).text);
-  if (IsSweep(text)) {
-    throw Failure(ExitCode::kUsage,
-                  fmt::format("{0} is a sweep; contactctl init {0} writes it", template_));
-  }
-  return {template_, text, ParseVariables(variables_)};
+  if (IsSweep(text)) return OpenSweepTemplate(template_, ParseVariables(variables_));
+  return ScenarioFile(template_, text, ParseVariables(variables_));
 }
 
 }  // namespace contact::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cli/input/scenario_file.h"
@@ -9,26 +10,32 @@
 
 namespace contact::cli {
 
-/// The scenario that `run` and `submit` take: a file, a shipped template, or that of an earlier
-/// job. Flags change its variables and fields.
+/// The scenario or sweep that `run` and `submit` take: a file, a shipped template, or that of an
+/// earlier job. Flags change its variables and, of a scenario, its fields.
 class ScenarioSource {
  public:
   /// Adds FILE, --like, --template, --set and --var. This object must outlive the parsing.
   void AddTo(CommandLine& line, CLI::App& command);
 
-  /// Reads and checks the scenario. Only --like asks the server; if another server ran that job, a
-  /// note on the standard error says that last digits may differ. Throws Failure: kUsage unless
-  /// exactly one source was named, or if that is a sweep; kInvalidScenario with every mistake;
-  /// kLocal for a file that cannot be read. Throws CallFailure.
-  ScenarioFile Open(Client& client) const;
+  using Spec = std::variant<ScenarioFile, v1::Sweep>;
+
+  /// Reads and checks the scenario or sweep. Only --like asks the server; if another server ran
+  /// that job, a note on the standard error says that last digits may differ. Throws Failure:
+  /// kUsage unless exactly one source was named, or for --set with a sweep; kInvalidScenario with
+  /// every mistake; kLocal for a file that cannot be read. Throws CallFailure.
+  Spec Open(Client& client) const;
+
+  /// The same for a verb that takes no sweep: kUsage for one, with the verb that does.
+  ScenarioFile OpenScenario(Client& client) const;
 
  private:
-  /// Reads the source that was named, before --set and without a check of the rules.
-  ScenarioFile Read(Client& client) const;
-  /// The scenario of the job that --like names.
-  ScenarioFile ReadJob(Client& client) const;
-  /// The shipped scenario that --template names.
-  ScenarioFile ReadTemplate() const;
+  /// Reads the source that was named, before --set and, of a scenario, without a check of the
+  /// rules.
+  Spec Read(Client& client) const;
+  /// What the job that --like names has computed.
+  Spec ReadJob(Client& client) const;
+  /// What --template names.
+  Spec ReadTemplate() const;
 
   std::string file_;                    // Path, or `-` for the standard input.
   std::string like_;                    // A job, as FindJob takes it.

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Any, Iterable
 
 import matplotlib
 import matplotlib.figure
 import numpy as np
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
@@ -51,8 +52,9 @@ def draw_panel(panel: Panel, ax: Axes, look: Look = Look(), key: Key | None = No
         draw_rows(panel, ax, look)
         return
     _draw_bands(panel, ax)
-    for curve in _merged(panel.curves):
+    for curve in _merged(curve for curve in panel.curves if not _is_shaded(curve, look)):
         ax.plot(curve.x, curve.y, scalex=True, scaley=True, **look.line(curve))
+    _draw_shaded([curve for curve in panel.curves if _is_shaded(curve, look)], ax, look)
     for y in panel.dotted:
         ax.axhline(y, color="0.4", linestyle=":", linewidth=1.0, zorder=1)
     _draw_labels(panel, ax)
@@ -96,7 +98,8 @@ class Key:
             (Line2D([], [], **look.line(curve)), curve.label) for curve in listed]
         faint = next((curve for curve in panel.curves if curve.is_faint), None)
         if crowd and named and faint:
-            self._entries.append((Line2D([], [], **look.line(faint)), f"{crowd} smaller"))
+            grey = dataclasses.replace(faint, shade=None)
+            self._entries.append((Line2D([], [], **look.line(grey)), f"{crowd} smaller"))
         if full and panel.dashed:
             black = Curve("", len(WORDS["palette"]) - 1, np.empty(0), np.empty(0), Mark.DASHED)
             self._entries.append((Line2D([], [], **look.line(black)), panel.dashed))
@@ -134,6 +137,19 @@ def _merged(curves: Iterable[Curve]) -> list[Curve]:
                   np.concatenate([part for curve in group for part in (curve.y, gap)]),
                   group[0].mark, group[0].keyed) if len(group) > 1 else group[0]
             for group in groups.values()]
+
+
+def _is_shaded(curve: Curve, look: Look) -> bool:
+    """True for a faint line whose colour is its place."""
+    return curve.mark is Mark.FAINT and look.shade_of(curve) is not None
+
+
+def _draw_shaded(curves: list[Curve], ax: Axes, look: Look) -> None:
+    """Draws all at once, because drawing each takes long."""
+    if curves:
+        ax.add_collection(LineCollection(
+            [np.column_stack([curve.x, curve.y]) for curve in curves],
+            colors=[look.shade_of(curve) for curve in curves], linewidths=0.5, zorder=1.5))
 
 
 def _draw_bands(panel: Panel, ax: Axes) -> None:

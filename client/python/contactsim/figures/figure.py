@@ -17,6 +17,10 @@ from ..model import Array
 Source = Mapping[str, str]
 
 
+#: Of bodies or contacts whose lines have colours of their own; of more the colour is the place.
+MOST_ROWS = 12
+
+
 class FigureError(ContactError, ValueError):
     """There is no such figure of these data; the text says why."""
 
@@ -53,6 +57,7 @@ class Curve:
     y: Array  #: In the unit of the panel's `y_label`.
     mark: Mark = Mark.LINE
     keyed: bool = True  #: False if it has no entry in the key, as without a label.
+    shade: float | None = None  #: Of many rows its place among them, from 0 to 1: it is its colour.
 
     @property
     def is_mark(self) -> bool:
@@ -160,7 +165,7 @@ def thin(points: int, figure: Figure) -> None:
 def keep_largest(figure: Figure) -> None:
     """Of a figure with more than `most_colours` leaves these to its largest curves: those with the
     largest |y|, or the widest span, beside the others of the last panel that they are in. All
-    others become faint, and have no marks."""
+    others become faint, and have no marks. Of more than MOST_ROWS each has the colour of its place."""
     sizes: dict[int, float] = {}
     for panel in figure.panels:
         if panel.kind is Kind.LINES:
@@ -169,6 +174,8 @@ def keep_largest(figure: Figure) -> None:
     if figure.crowd or len(ranked) <= figure.most_colours:
         return
     figure.crowd = len(ranked) - figure.most_colours
+    if len(ranked) > MOST_ROWS:
+        _shade(figure, {colour: place / (len(ranked) - 1) for place, colour in enumerate(sorted(ranked))})
     kept = {colour: place for place, colour in enumerate(sorted(ranked[:figure.most_colours]))}
     for panel in figure.panels:
         _fade(panel, kept)
@@ -184,6 +191,11 @@ def _sizes(panel: Panel) -> dict[int, float]:
         sizes[curve.colour] = max(sizes.get(curve.colour, 0.0), size)
     largest = max(sizes.values(), default=0.0)
     return {colour: size / largest if largest > 0 else 0.0 for colour, size in sizes.items()}
+
+
+def _shade(figure: Figure, shades: Mapping[int, float]) -> None:
+    for curve in (curve for panel in figure.panels for curve in panel.curves):
+        curve.shade = shades.get(curve.colour)
 
 
 def _fade(panel: Panel, kept: Mapping[int, int]) -> None:

@@ -9,6 +9,7 @@ from typing import Any, Sequence
 from .figure import Curve, FigureError, Mark
 from .words import WORDS
 
+BY_PLACE = "viridis"  #: Colours of rows by their place, from 0 to 0.9: the rest is too light.
 _INCHES = {None: 1.0, "in": 1.0, "cm": 1 / 2.54, "mm": 1 / 25.4}
 _WIDTH = 8.0
 _COLUMN = 3.4  # Of a journal with two columns, whose figures are
@@ -57,9 +58,10 @@ class Look:
         """Colour, dashes and marker of a curve, for Axes.plot."""
         if curve.is_faint:
             dots = curve.mark is Mark.FAINT_DOTS
-            return {"color": WORDS["faint"], "linewidth": 0.5, "linestyle": "" if dots else "-",
+            return {"color": self.shade_of(curve) or WORDS["faint"], "linewidth": 0.5, "linestyle": "" if dots else "-",
                     "marker": "." if dots else "", "markersize": 3.0, "zorder": 1.5}
-        ink, dashes = self._pen(curve)
+        shade = self.shade_of(curve)
+        ink, dashes = (shade, []) if shade else self._pen(curve)
         style: dict[str, Any] = {"color": ink, "linewidth": 1.0 if self.paper else 1.3}
         if curve.mark in (Mark.START, Mark.END, Mark.POINTS):
             marker = {Mark.START: "o", Mark.END: "x", Mark.POINTS: "."}[curve.mark]
@@ -71,6 +73,15 @@ class Look:
         if curve.mark is Mark.DOTTED:
             return style | {"dashes": (1, 1.5)}
         return style | ({"dashes": dashes} if dashes else {})
+
+    def shade_of(self, curve: Curve) -> str | None:
+        """The colour of one of many rows by its place, as a waterfall has it; not in print."""
+        if curve.shade is None or self.paper:
+            return None
+        import matplotlib  # Only who draws needs it.
+        from matplotlib.colors import to_hex
+
+        return str(to_hex(matplotlib.colormaps[BY_PLACE](0.9 * curve.shade)))
 
     def _pen(self, curve: Curve) -> tuple[str, Sequence[float]]:
         """Colours come again with other dashes; on paper dashes come again in grey."""

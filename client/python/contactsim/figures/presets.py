@@ -10,9 +10,10 @@ import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
 from ..model import Array, mechanical_energy
+from ..spelling import expected, nearest
 from .contacts import deformation_velocity, force, hysteresis
 from .figure import Curve, Figure, FigureError, Kind, Mark, Panel
-from .shown import OfCycle, Part, Shown, nearest
+from .shown import OfCycle, Part, Shown
 from .sources import source_of
 
 if TYPE_CHECKING:
@@ -174,7 +175,7 @@ def preset_figure(preset: str, result: Result, part: Part = Part()) -> Figure:
     """The figure with this name of a part of a run. Raises FigureError if the run did not record what
     it shows."""
     if preset not in PRESETS:
-        raise FigureError(f"there is no preset {preset!r}; one of {', '.join(PRESETS)}")
+        raise FigureError(f"there is no preset {preset!r}" + expected(preset, PRESETS))
     make, note = PRESETS[preset]
     return _of_run(result, make(Shown(result, part)), note)
 

@@ -13,7 +13,7 @@ from matplotlib.colors import LogNorm, Normalize, SymLogNorm
 from ..model import Array
 from .axes import chosen_unit
 from .figure import Kind, Panel
-from .look import Look
+from .look import BY_PLACE, Look
 from .picture import cells
 from .scale import place_ticks, scale_axis, typeset
 
@@ -72,7 +72,7 @@ def _draw_waterfall(panel: Panel, ax: Axes, look: Look) -> None:
     largest = max(float(np.abs(panel.curves[i].y).max()) for i in places) or 1.0
     lines = [np.column_stack([panel.curves[i].x, i + _HEIGHT * step / largest * panel.curves[i].y])
              for i in places]
-    shades = matplotlib.colormaps["viridis"](np.linspace(0, 0.9, len(lines)))
+    shades = matplotlib.colormaps[BY_PLACE](np.linspace(0, 0.9, len(lines)))
     # From the top down, so that a line lies over the one behind it.
     ax.add_collection(LineCollection(lines[::-1], colors=shades[::-1], linewidths=0.9))
     low, high = (pick(float(line[:, 1].min() if pick is min else line[:, 1].max())

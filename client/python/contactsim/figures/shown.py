@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 from typing import TYPE_CHECKING, Callable, Iterable, Iterator, Sequence
 
@@ -11,6 +10,7 @@ import numpy as np
 from contact.v1 import job_pb2
 
 from ..model import Array, ContactLaw, contact_laws
+from ..spelling import nearest
 from .figure import Curve, FigureError, Mark, Panel
 
 if TYPE_CHECKING:
@@ -132,12 +132,6 @@ def samples_in(cycle: job_pb2.Cycle, time: Array) -> int:
     """The number of samples within a cycle."""
     return int(np.searchsorted(time, cycle.end_time_s, "right")
                - np.searchsorted(time, cycle.start_time_s, "left"))
-
-
-def nearest(word: str, words: Iterable[str]) -> str:
-    """What a user may have meant, for the end of a message."""
-    found = difflib.get_close_matches(word, list(words), 1)
-    return f" — did you mean '{found[0]}'?" if found else ""
 
 
 def _joined(spans: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:

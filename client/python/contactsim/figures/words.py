@@ -1,4 +1,4 @@
-"""words.json: prefixes, colours and dashes that contactsim and the dashboard share."""
+"""words.json: titles, prefixes, colours and dashes that contactsim and the dashboard share."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 // What the plots of a run are made of: columns as curves, marks at the exact ends of cycles.
 
+import look from '../../../python/contactsim/figures/words.json';
 import type {Series} from '../api/series';
 import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
 import {endForce, type ContactModel, type Mechanics} from './mechanics';
@@ -55,8 +56,8 @@ export function bandsOf(cycles: Cycle[]): Band[] {
 }
 
 /** A panel over time, with contact shaded. */
-export function overTime({bands, cycles}: RunView, id: string, title: string, yLabel: string): Panel {
-  return {id, title, xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE + unmarked(cycles)};
+export function overTime({bands, cycles}: RunView, id: keyof typeof look.titles, yLabel: string): Panel {
+  return {id, title: look.titles[id], xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE + unmarked(cycles)};
 }
 
 /** A column as a curve. */

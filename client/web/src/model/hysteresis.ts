@@ -1,5 +1,6 @@
 // Force over deformation: a loop for each cycle.
 
+import look from '../../../python/contactsim/figures/words.json';
 import type {Cycle} from '../api/generated/contact/v1/job_pb';
 import {cycleKey, endForces, MOST_MARKED, unmarked, values, type RunPart, type RunView} from './curves';
 import type {ContactModel} from './mechanics';
@@ -44,7 +45,7 @@ export function coarseCycles({series, loops}: RunPart, cycles: Cycle[]): Cycle[]
 
 /** The loops of all contacts. */
 export function hysteresis(view: RunView): Panel {
-  const panel: Panel = {id: 'hysteresis', title: 'Hysteresis', xLabel: 'deformation [m]',
+  const panel: Panel = {id: 'hysteresis', title: look.titles.hysteresis, xLabel: 'deformation [m]',
     yLabel: 'contact force [N]', overTime: false, curves: [],
     note: 'o start, × end of a contact cycle; the area of a loop is the energy lost' + unmarked(view.cycles)};
   view.mechanics.contacts.forEach((contact, colour) => {

@@ -1,5 +1,6 @@
 // μ and residual over the passes of an episode, as `contactctl plot iterations` shows them.
 
+import look from '../../../python/contactsim/figures/words.json';
 import {Iteration_Update, type Iteration, type Iteration_Unknown} from '../api/generated/contact/v1/event_pb';
 import {exact} from './numbers';
 import type {Curve, Panel} from './panel';
@@ -84,7 +85,7 @@ export function iterationPanels(iterations: Iteration[], episode: number): Panel
   const xLabel = only ? 'pass' : `pass of episode ${episode}`;
   const common = {xLabel, overTime: true, countedX: true};
   return [
-    {...common, id: 'mu', title: 'Damping factor', yLabel: 'μ [N·s/m^(n+1)]', logY: haveManySizes(mu), curves: mu},
-    {...common, id: 'residual', title: 'Residual', yLabel: '|W_r/W_c + ε²| [1]', logY: true, curves: residual},
+    {...common, id: 'mu', title: look.titles.mu, yLabel: 'μ [N·s/m^(n+1)]', logY: haveManySizes(mu), curves: mu},
+    {...common, id: 'residual', title: look.titles.residual, yLabel: '|W_r/W_c + ε²| [1]', logY: true, curves: residual},
   ];
 }

@@ -1,5 +1,6 @@
 // The plots of a run: the same channels, axes, words and units as `contactctl plot`.
 
+import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
 import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
 import {energyChannels, mechanicalEnergy} from './energy';
@@ -64,7 +65,7 @@ function bodies(view: RunView, quantity: string, panel: Panel, origin: (position
 }
 
 function force(view: RunView): Panel {
-  const panel = overTime(view, 'force', 'Contact force', 'force [N]');
+  const panel = overTime(view, 'force', 'force [N]');
   const few = view.mechanics.contacts.length <= MOST_TOLD;
   const lanes = lanesOf(view);
   view.mechanics.contacts.forEach((contact, colour) => {
@@ -86,7 +87,7 @@ function forceMap({mechanics, series}: RunView): Panel {
   const largest = extent(rows.map((row) => row.values))?.[1] ?? 0;
   const {factor, label} = readableUnit('force [N]', largest);
   return {
-    id: 'force-map', title: 'Contact forces over time', xLabel: 'time [s]', yLabel: 'contact', overTime: true, countedY: true, curves: [],
+    id: 'force-map', title: look.titles['force-map'], xLabel: 'time [s]', yLabel: 'contact', overTime: true, countedY: true, curves: [],
     raster: {time: values(series, 'time'), rows, label: 'force [N]', largest},
     note: `colour: force from 0 (dark) to ${short(largest / factor)} ${unitOf(label)} (bright); contacts in the order of the scenario, the first one lowest`,
   };
@@ -94,8 +95,8 @@ function forceMap({mechanics, series}: RunView): Panel {
 
 function deformation(view: RunView, rate: boolean): Panel {
   const panel = rate
-    ? overTime(view, 'deformation-velocity', 'Deformation velocity', 'deformation velocity [m/s]')
-    : overTime(view, 'deformation', 'Deformation', 'deformation [m]');
+    ? overTime(view, 'deformation-velocity', 'deformation velocity [m/s]')
+    : overTime(view, 'deformation', 'deformation [m]');
   view.mechanics.contacts.forEach(({name}, colour) => {
     const channel = `${name}.deformation${rate ? '_velocity' : ''}`;
     panel.curves.push(line(view, channel, name, colour));
@@ -110,7 +111,7 @@ function deformation(view: RunView, rate: boolean): Panel {
 }
 
 function energy(view: RunView): Panel {
-  const panel = overTime(view, 'energy', 'Energy balance', 'energy [J]');
+  const panel = overTime(view, 'energy', 'energy [J]');
   mechanicalEnergy(view.mechanics, view.series).forEach(({name, values: y}, colour) => {
     panel.curves.push({label: name, colour, mark: 'line', x: values(view.series, 'time'), y});
   });
@@ -132,16 +133,16 @@ export const PRESETS: Preset[] = [
   {id: 'force-map', channels: ofContacts('contact_force'), panel: forceMap},
   {id: 'force', channels: ofContacts('contact_force', 'external_force'), panel: force},
   {id: 'velocity', channels: ofBodies('velocity'),
-    panel: (view) => bodies(view, 'velocity', overTime(view, 'velocity', 'Velocity', 'velocity [m/s]'), () => 0)},
+    panel: (view) => bodies(view, 'velocity', overTime(view, 'velocity', 'velocity [m/s]'), () => 0)},
   {id: 'deformation', channels: ofContacts('deformation'), panel: (view) => deformation(view, false)},
   {id: 'displacement', channels: ofBodies('position'),
-    panel: (view) => bodies(view, 'position', overTime(view, 'displacement', 'Displacement', 'displacement [m]'), (x) => x)},
+    panel: (view) => bodies(view, 'position', overTime(view, 'displacement', 'displacement [m]'), (x) => x)},
   {id: 'hysteresis', channels: ofContacts('deformation', 'contact_force'), panel: hysteresis},
   {id: 'energy', channels: energyChannels, panel: energy},
   {id: 'deformation-velocity', channels: ofContacts('deformation_velocity'), panel: (view) => deformation(view, true)},
   {id: 'position', channels: ofBodies('position'),
     panel: (view) => ({
-      ...bodies(view, 'position', overTime(view, 'position', 'Position', 'position [m]'), () => 0),
+      ...bodies(view, 'position', overTime(view, 'position', 'position [m]'), () => 0),
       dottedLines: wallLines(view.mechanics),
     })},
 ];
