@@ -103,6 +103,14 @@ TEST(Translation, AsStepsShrinkTheReboundBecomesThatOfTheLaw) {
   }
 }
 
+TEST(Translation, ABodyThatItsLoadHoldsComesBackInNoStep) {
+  const ForceLaw law{.damping = 1, .pull = Pull::kClamped};
+  for (const Stepping stepping : {Stepping::kSymplecticEuler, Stepping::kVerlet,
+                                  Stepping::kImplicitEuler, Stepping::kSpeculative}) {
+    EXPECT_EQ(Step(law, {.load = 20}, stepping, 0.01).most, 0);
+  }
+}
+
 TEST(Translation, ToolsHaveDistinctNamesAndLinesWithTheirValues) {
   std::set<std::string_view> names;
   for (const Tool& tool : Tools()) {
