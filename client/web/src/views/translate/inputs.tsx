@@ -14,7 +14,7 @@ interface Props {
 function NumberInput({field: {key, label, unit, hint}, inputs, problems, change, off = false}: Props & {field: Input; off?: boolean}) {
   const wrong = problems.filter((problem) => problem.key === key);
   return (
-    <label class="asked">{label}{unit && unit !== '1' && <span class="soft"> [{unit}]</span>}
+    <label class="asked"><span>{label}{unit && unit !== '1' && <span class="soft"> [{unit}]</span>}</span>
       <input value={inputs[key] ?? ''} inputMode={key === 'v' ? 'text' : 'decimal'} autocomplete="off" spellcheck={false} disabled={off}
         aria-invalid={wrong.length > 0} aria-describedby={`about-${key}`} onInput={(event) => change({[key]: event.currentTarget.value})} />
       <span id={`about-${key}`} class={wrong.length > 0 ? 'bad' : 'soft'}>{wrong.length > 0 ? wrong.map(({text}) => text).join('; ') : hint}</span>

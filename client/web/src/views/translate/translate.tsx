@@ -24,11 +24,12 @@ export function Translate({route: {query}}: {route: Route}) {
     const kept = 'from' in changes ? Object.fromEntries(Object.entries(inputs).filter(([key]) => !key.startsWith('set.'))) : inputs;
     setQuery(queryOf({...kept, ...changes}));
   };
-  const command = wordsAmong(inputs).length > 0 ? '' : commandOf(inputs, requestOf(inputs, models));
+  const command = problems.length > 0 || wordsAmong(inputs).length > 0 ? '' : commandOf(inputs, requestOf(inputs, models));
   return (
     <>
-      <div class="head"><h1>The same contact in other simulators</h1></div>
-      <p class="soft">The parameters with which each of them gives back the restitution that is asked for, and what it really gives back: by its own rule, under gravity, at its time step. <a href="/docs/theory/translation.html" target="_top">How it is found</a></p>
+      <div class="head"><h1>The same contact in other simulators</h1>
+        <span class="actions"><a class="button" href="/docs/theory/translation.html" target="_top">How it is found</a></span></div>
+      <p class="soft">The parameters with which each of them gives back the restitution that is asked for, and what it really gives back: by its own rule, under gravity, at its time step.</p>
       <Inputs inputs={inputs} models={models} problems={problems} change={change} />
       <p class="hidden" role="status" data-settled={settled}>{settled && response ? `${count(response.translations.length)} models` : ''}</p>
       {response && response.rebounds.length > 0 && <Rebounds all={response.rebounds} />}
