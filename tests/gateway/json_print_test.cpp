@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "contact/v1/model_service.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -148,6 +149,7 @@ void ExpectSame(const pb::Message& message) {
 
 TEST(JsonPrintTest, EveryMessageOfTheContractIsWhatProtobufPrints) {
   v1::GetJobRequest::descriptor();
+  v1::TranslateModelRequest::descriptor();
   google::rpc::ErrorInfo::descriptor();
   int seen = 0;
   for (const char* name :
