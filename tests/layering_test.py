@@ -12,7 +12,7 @@ MOST_FILES = 35
 
 # The rooms of each folder; a room may include those before it. `.` is the files of the folder.
 ORDER = {
-    "server": ["base", "identity", "simulation", "wire", "storage", "launcher", "jobs", "rpc",
+    "server": ["base", "identity", "simulation", "translate", "wire", "storage", "launcher", "jobs", "rpc",
                "gateway", "."],
     "server/wire": ["rules", "scenario", "sweep", "."],
     "server/simulation": ["laws", "model", "methods", "motion", "episode", "course", "clusters",
@@ -21,7 +21,7 @@ ORDER = {
     "server/jobs": ["job", "quota", "log", "read", "run", "schedule", "cluster", "."],
     "server/rpc": ["net", "metrics", "call", "stream", "."],
     "server/gateway": ["net", "protocol", "openapi", "call", "http1", "http2", "."],
-    "client/cli": ["base", "input", "settings", "link", "text", "export", "translate", "help", "verbs", "."],
+    "client/cli": ["base", "input", "settings", "link", "text", "export", "help", "verbs", "."],
     "client/cli/text": [".", "comparison", "sweep"],
     "client/cli/help": ["contract", "."],
     "client/cli/verbs": ["identity", "job", "laws", "sweep", "."],
@@ -34,7 +34,9 @@ REFUSED = [
     ("server/simulation", r"(.*\.pb\.h|grpc|spdlog|fmt/|thread>|mutex>|fstream>|chrono>)",
      "the physics has no I/O, threads, clock, contract or log"),
     ("client", r"(simulation|storage|jobs|rpc)/",
-     "clients use the contract, and wire/ for its rules"),
+     "clients use the contract, wire/ for its rules, and translate/ for what needs no server"),
+    ("server/translate", r"(.*\.pb\.h|grpc|simulation/|spdlog|thread>|mutex>|fstream>|chrono>)",
+     "values in, values out: clients link it without the solver"),
 ]
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)', re.MULTILINE)
 

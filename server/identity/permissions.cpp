@@ -18,6 +18,8 @@ constexpr std::array kMethods = std::to_array<MethodRule>({
     {"/contact.v1.JobService/ReadArtifact", Permission::kRead, false},
     {"/contact.v1.JobService/GetSeries", Permission::kRead, false},
     {"/contact.v1.JobService/GetServerInfo", Permission::kRead, false},
+    {"/contact.v1.ModelService/ListModels", Permission::kRead, false},
+    {"/contact.v1.ModelService/TranslateModel", Permission::kRead, false},
     {"/contact.v1.AdminService/Backup", Permission::kServer, true},
 });
 

@@ -79,6 +79,7 @@ GrpcServer::GrpcServer(JobManager& jobs, Store& store, const GrpcServerOptions& 
       guard_(options_.calls, options_.door, jobs.quotas(), streams_, metrics_, clock),
       calls_(guard_, loop_, options_.audit),
       jobs_(jobs, calls_, WithLimits(std::move(identity), options_)),
+      models_(calls_),
       admin_(store, calls_) {}
 
 GrpcServer::~GrpcServer() { Shutdown(1s); }
@@ -91,6 +92,7 @@ void GrpcServer::Start() {
   if (options_.channelz) grpc::channelz::experimental::InitChannelzService();
   grpc::ServerBuilder builder;
   builder.RegisterService(&jobs_);
+  builder.RegisterService(&models_);
   if (options_.admin) builder.RegisterService(&admin_);
   LimitMemory(options_, &builder);
   ChoosePlugins(options_, &builder);

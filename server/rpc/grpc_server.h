@@ -12,6 +12,7 @@
 #include "rpc/call/call_guard.h"
 #include "rpc/call_starter.h"
 #include "rpc/job_service.h"
+#include "rpc/model_service.h"
 #include "rpc/stream/stream_loop.h"
 
 namespace contact {
@@ -80,10 +81,11 @@ class GrpcServer {
   const std::shared_ptr<PeerCounts> streams_ = std::make_shared<PeerCounts>();
   const std::shared_ptr<RpcMetrics> metrics_;
   CallGuard guard_;
-  /// Starts the calls of both services.
+  /// Starts the calls of all services.
   CallStarter calls_;
   /// The services. gRPC uses them until server_ is gone.
   JobService jobs_;
+  ModelService models_;
   AdminService admin_;
   /// Null before Start and after Shutdown.
   std::unique_ptr<grpc::Server> server_;

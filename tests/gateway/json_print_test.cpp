@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "contact/v1/model_service.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -148,11 +149,13 @@ void ExpectSame(const pb::Message& message) {
 
 TEST(JsonPrintTest, EveryMessageOfTheContractIsWhatProtobufPrints) {
   v1::GetJobRequest::descriptor();
+  v1::TranslateModelRequest::descriptor();
   google::rpc::ErrorInfo::descriptor();
   int seen = 0;
   for (const char* name :
        {"contact/v1/job_service.proto", "contact/v1/job.proto", "contact/v1/event.proto",
-        "contact/v1/motion.proto", "contact/v1/scenario.proto", "google/rpc/error_details.proto"}) {
+        "contact/v1/model_service.proto", "contact/v1/motion.proto", "contact/v1/scenario.proto",
+        "google/rpc/error_details.proto"}) {
     const auto* file = pb::DescriptorPool::generated_pool()->FindFileByName(name);
     ASSERT_NE(file, nullptr) << name;
     for (int i = 0; i < file->message_type_count(); ++i) {

@@ -38,6 +38,7 @@ Pairs InContract() {
   const fs::path folder = fs::path(CONTACT_SOURCE_DIR) / "proto/contact/v1";
   Pairs listed;
   AddListed(TextOf(folder / "job_service.proto"), &listed);
+  AddListed(TextOf(folder / "model_service.proto"), &listed);
   AddListed(TextOf(folder / "admin_service.proto"), &listed);
   return listed;
 }

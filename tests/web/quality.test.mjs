@@ -21,7 +21,7 @@ before(async () => {
   for (const id of [chain, other, wall, sweep]) await server.ended(id);
   Object.assign(pages, {
     runs: '/runs', run: `/runs/${chain}?t=0.0012`, wall: `/runs/${wall}?plots=all`, sweep: `/runs/${sweep}?cell=3`, parallel: `/runs/${sweep}?view=parallel`,
-    compare: `/compare?jobs=${chain},${other}`, new: '/new', server: '/server'});
+    compare: `/compare?jobs=${chain},${other}`, new: '/new', translate: '/translate', server: '/server'});
 });
 after(async () => { await browser?.close(); await server?.close(); });
 
@@ -99,7 +99,7 @@ test('every page has a title of its own, and an address without a page says so',
   const titled = (title) => until(async () => await page.title() === `${title} · contactd`, `the title ${title}`);
   await page.goto(server.origin + pages.run);
   await titled('Triple-ball chain');
-  for (const name of ['Server', 'New run', 'Compare', 'Runs']) {
+  for (const name of ['Server', 'New run', 'Compare', 'Translate', 'Runs']) {
     await page.getByRole('link', {name, exact: true}).first().click();
     await titled(name);
   }

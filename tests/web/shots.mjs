@@ -32,7 +32,7 @@ const pages = {
   run: [`/runs/${chain}?t=0.0012`], wall: [`/runs/${wall}?plots=all`], missed: [`/runs/${missed}`], live: [`/runs/${live}`], none: ['/runs/none'], loading: [`/runs/${chain}`],
   map: [`/runs/${map}?cell=3`], large: [`/runs/${large}?cell=5050`], contours: [`/runs/${map}?metric=1&contours=1`], 'large-contours': [`/runs/${large}?contours=1&log=1`], parallel: [`/runs/${map}?view=parallel&cell=3`],
   compare: [`/compare?jobs=${chain},${softer}`], 'compare-none': ['/compare'],
-  new: ['/new'], 'new-wrong': [`/new#text=${encodeURIComponent('title: x\nbodies:\n  - {name: A, mass_kg: -1}\ncontact: []\n')}`], server: ['/server'],
+  new: ['/new'], 'new-wrong': [`/new#text=${encodeURIComponent('title: x\nbodies:\n  - {name: A, mass_kg: -1}\ncontact: []\n')}`], translate: ['/translate?e=0.5&k=1e6&n=1.5&v=1&m=1&r=0.02&step=1e-4&g=9.81'], server: ['/server'],
 };
 
 for (const colorScheme of ['light', 'dark']) {

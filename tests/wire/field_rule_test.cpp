@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/v1/job_service.pb.h"
+#include "contact/v1/model_service.pb.h"
 #include "wire/rules/rules.h"
 #include "wire/scenario_builder.h"
 
@@ -44,7 +45,9 @@ std::vector<const FieldDescriptor*> AllFields() {
   return FieldsOf({v1::CreateJobRequest::descriptor(), v1::ListJobsRequest::descriptor(),
                    v1::WatchJobRequest::descriptor(), v1::WatchJobResponse::descriptor(),
                    v1::WatchJobsRequest::descriptor(), v1::GetSeriesRequest::descriptor(),
-                   v1::ReadArtifactRequest::descriptor(), v1::ServerInfo::descriptor()});
+                   v1::ReadArtifactRequest::descriptor(), v1::ServerInfo::descriptor(),
+                   v1::TranslateModelRequest::descriptor(),
+                   v1::TranslateModelResponse::descriptor(), v1::ListModelsResponse::descriptor()});
 }
 
 const FieldDescriptor& Field(const Descriptor& message, const char* name) {

@@ -13,7 +13,7 @@ import sys
 import contract
 import python_page
 
-SERVICES = ("job_service.proto", "admin_service.proto")
+SERVICES = ("job_service.proto", "model_service.proto", "admin_service.proto")
 
 
 def output(*command: str) -> str:

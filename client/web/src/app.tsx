@@ -16,9 +16,10 @@ const LAZY: Record<string, () => Promise<View>> = {
   runs: async () => (await import('./views/run/run')).Run,
   compare: async () => (await import('./views/compare')).Compare,
   new: async () => (await import('./views/new/new')).New,
+  translate: async () => (await import('./views/translate/translate')).Translate,
   server: async () => (await import('./views/server')).Server,
 };
-const LINKS = [['/runs', 'Runs'], ['/new', 'New run'], ['/compare', 'Compare'], ['/server', 'Server']] as const;
+const LINKS = [['/runs', 'Runs'], ['/new', 'New run'], ['/compare', 'Compare'], ['/translate', 'Translate'], ['/server', 'Server']] as const;
 const loaded = new Map<string, View>();
 
 function NotFound({route}: {route: Route}) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/spelling.h"
 #include "cli/base/assignments.h"
 #include "cli/base/scalar.h"
 #include "cli/text/print_job.h"
@@ -13,6 +14,13 @@
 
 namespace contact::cli {
 namespace {
+
+using translate::Setup;
+using translate::Tool;
+using translate::ToolParameter;
+using translate::Tools;
+using translate::Translation;
+using translate::Wanted;
 
 struct TranslateArguments {
   std::vector<std::string> tools;
@@ -26,10 +34,6 @@ struct TranslateArguments {
 void Require(bool holds, const std::string& what) {
   if (!holds) throw Failure(ExitCode::kUsage, what);
 }
-
-// More damping, in units of the collision, lets less than a thousandth of the speed come back, and
-// the integration takes the longer the more of it there is.
-constexpr double kMostDamping = 1e3;
 
 void CheckNumbers(const TranslateArguments& given) {
   const std::pair<const char*, double> numbers[] = {{"--restitution", given.restitution},
@@ -64,6 +68,13 @@ void Check(const TranslateArguments& given) {
           "--restitution must be given, from 0.01 to 1");
   Require((given.stiffness > 0) != (given.contact_time > 0),
           "either --stiffness or --contact-time must be given");
+}
+
+const Tool& ToolNamed(const std::string& name) {
+  const Tool* tool = translate::FindTool(name);
+  Require(tool != nullptr,
+          WithHint(fmt::format("there is no tool {}", Quoted(name)), translate::ToolHint(name)));
+  return *tool;
 }
 
 Setup SetupAt(const TranslateArguments& given, double velocity) {
@@ -101,16 +112,14 @@ std::vector<double> ValuesFor(const Tool& tool, const TranslateArguments& given)
 std::vector<Translation> Rebounds(const TranslateArguments& given) {
   std::vector<Translation> rebounds;
   if (given.from.empty()) return rebounds;
-  const Tool& tool = FindTool(given.from);
+  const Tool& tool = ToolNamed(given.from);
   const std::vector<double> values = ValuesFor(tool, given);
   for (const double velocity : given.velocities) {
     const Setup setup = SetupAt(given, velocity);
-    const std::string missing = Missing(tool, setup);
-    Require(missing.empty(), fmt::format("{} needs {}", tool.name, missing));
-    const ForceLaw law = tool.read(tool.law, values, setup);
-    const bool known = law.stiffness > 0 && law.damping >= 0 &&
-                       law.damping <= kMostDamping * DampingUnit(law, setup.collision);
-    Require(known, "--set: the simulator's spring or damper is none, or damps nearly everything");
+    const std::string_view missing = Missing(tool, setup);
+    Require(missing.empty(), fmt::format("{} needs --{}", tool.name, missing));
+    Require(CanJudge(tool, values, setup),
+            "--set: the simulator's spring or damper is none, or damps nearly everything");
     rebounds.push_back(Judge(tool, values, setup));
   }
   return rebounds;
@@ -119,7 +128,7 @@ std::vector<Translation> Rebounds(const TranslateArguments& given) {
 // The tools that are named, else all; none beside --from unless named.
 std::vector<const Tool*> Targets(const TranslateArguments& given) {
   std::vector<const Tool*> targets;
-  for (const std::string& name : given.tools) targets.push_back(&FindTool(name));
+  for (const std::string& name : given.tools) targets.push_back(&ToolNamed(name));
   if (targets.empty() && given.from.empty()) {
     for (const Tool& tool : Tools()) targets.push_back(&tool);
   }
@@ -135,6 +144,8 @@ std::vector<Translation> Translations(const TranslateArguments& given,
   for (const Tool* tool : targets) {
     Require(wanted.restitution > 0, "the bodies do not part: there is nothing to translate");
     all.push_back(Translate(*tool, wanted, SetupAt(given, given.velocities.front())));
+    const std::string_view missing = all.back().missing;
+    if (!missing.empty()) all.back().warnings.push_back(fmt::format("needs --{}", missing));
   }
   return all;
 }

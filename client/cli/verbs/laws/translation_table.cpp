@@ -11,6 +11,10 @@
 namespace contact::cli {
 namespace {
 
+using translate::Rebound;
+using translate::SteppedRebound;
+using translate::Tool;
+using translate::Translation;
 using Json = nlohmann::ordered_json;
 
 std::string Ratio(double value) { return std::isnan(value) ? "-" : fmt::format("{:.5f}", value); }

@@ -27,9 +27,12 @@ const identity: Interceptor = (next) => async (request) => {
   return answer.stream ? {...answer, message: heard(answer.message)} : answer;
 };
 
-/** Calls of the server that served this page. */
-export const server = createClient(JobService, createConnectTransport({
+/** The way to the server that served this page. */
+export const transport = createConnectTransport({
   baseUrl: globalThis.location?.origin ?? 'http://127.0.0.1',
   useBinaryFormat: true,
   interceptors: [identity],
-}));
+});
+
+/** Its calls about jobs. */
+export const server = createClient(JobService, transport);

@@ -14,8 +14,14 @@ export interface Preset {
   id: string;
   channels: (mechanics: Mechanics) => string[];
   panel: (view: RunView) => Panel;
+  /** What there are too many of for curves: the panel has a row for each of them. */
+  many?: 'contacts' | 'bodies';
 }
 
+export const FIRST = 6;   // Plots of the page; the others are shown when asked for.
+export const MOST_CONTACTS = 12;     // With a curve each.
+export const MOST_BODIES = 200;      // Of whose energy a plot is made.
+const MOST_ROWS = 400;   // Of maps and waterfalls: the server thins less for fewer columns.
 const MOST_LABELS = 12;
 
 const MOST_LANES = 5;    // More would leave the curves no room.
@@ -81,15 +87,21 @@ function force(view: RunView): Panel {
   return {...panel, lanes, labels: few ? peakLabels(view) : [], note: notes.join('; ')};
 }
 
-/** The contact forces of all contacts as colours, in the order of the scenario. */
-function forceMap({mechanics, series}: RunView): Panel {
-  const rows = mechanics.contacts.map(({name}) => ({name, values: values(series, `${name}.contact_force`)}));
-  const largest = extent(rows.map((row) => row.values))?.[1] ?? 0;
-  const {factor, label} = readableUnit('force [N]', largest);
+/** A quantity of all contacts or bodies, a row for each in the order of the scenario: as colours, or as lines. */
+function rowsOf({mechanics, series}: RunView, moving: boolean, lines: boolean): Panel {
+  const [quantity, channel, each] = moving ? ['velocity [m/s]', 'velocity', 'body'] : ['force [N]', 'contact_force', 'contact'];
+  const id = `${moving ? 'velocity' : 'force'}-${lines ? 'waterfall' : 'map'}` as const;
+  const rows = (moving ? mechanics.bodies : mechanics.contacts).map(({name}) => ({name, values: values(series, `${name}.${channel}`)}));
+  const [low, high] = extent(rows.map((row) => row.values)) ?? [0, 0];
+  const largest = Math.max(-low, high);
+  const {factor, label} = readableUnit(quantity, largest);
+  const most = `${short(largest / factor)} ${unitOf(label)}`;
+  const both = low < 0;
+  const colour = both ? `from −${most} (blue) over 0 (white) to ${most} (red)` : `from 0 (dark) to ${most} (bright)`;
   return {
-    id: 'force-map', title: look.titles['force-map'], xLabel: 'time [s]', yLabel: 'contact', overTime: true, countedY: true, curves: [],
-    raster: {time: values(series, 'time'), rows, label: 'force [N]', largest},
-    note: `colour: force from 0 (dark) to ${short(largest / factor)} ${unitOf(label)} (bright); contacts in the order of the scenario, the first one lowest`,
+    id, title: look.titles[id],
+    xLabel: 'time [s]', yLabel: each, overTime: true, countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines},
+    note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest`,
   };
 }
 
@@ -130,7 +142,7 @@ const ofContacts = (...quantities: string[]) => ({contacts}: Mechanics) =>
 
 /** The presets in the order of the page. */
 export const PRESETS: Preset[] = [
-  {id: 'force-map', channels: ofContacts('contact_force'), panel: forceMap},
+  {id: 'force-map', channels: ofContacts('contact_force'), panel: (view) => rowsOf(view, false, false), many: 'contacts'},
   {id: 'force', channels: ofContacts('contact_force', 'external_force'), panel: force},
   {id: 'velocity', channels: ofBodies('velocity'),
     panel: (view) => bodies(view, 'velocity', overTime(view, 'velocity', 'velocity [m/s]'), () => 0)},
@@ -145,4 +157,18 @@ export const PRESETS: Preset[] = [
       ...bodies(view, 'position', overTime(view, 'position', 'position [m]'), () => 0),
       dottedLines: wallLines(view.mechanics),
     })},
+  {id: 'velocity-map', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, false), many: 'bodies'},
+  {id: 'force-waterfall', channels: ofContacts('contact_force'), panel: (view) => rowsOf(view, false, true), many: 'contacts'},
+  {id: 'velocity-waterfall', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, true), many: 'bodies'},
 ];
+
+/** The plots that can be made of a scenario. */
+export function presetsFor(mechanics: Mechanics): Preset[] {
+  const isMany = (count: number) => count > MOST_CONTACTS && count <= MOST_ROWS;
+  return PRESETS.filter(({id, many}) => (many ? isMany(mechanics[many].length) : id !== 'energy' || mechanics.bodies.length <= MOST_BODIES));
+}
+
+/** Those of which the columns are asked for: where there are many, only as far as they are shown. */
+export function presetsAsked(mechanics: Mechanics, all: boolean): Preset[] {
+  return presetsFor(mechanics).filter(({many}, place) => all || !many || place < FIRST);
+}

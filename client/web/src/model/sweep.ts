@@ -78,15 +78,20 @@ export function countUnknown(cells: Iterable<SweepCell>, metric: number): Record
 
 const VIRIDIS = ['440154', '482878', '3e4989', '31688e', '26828e', '1f9e89', '35b779', '6ece58', 'b5de2b', 'fde725'];
 
-/** The colour of a value between 0 and 1, of the map viridis. */
-export function viridis(part: number): string {
-  const at = Math.min(Math.max(part, 0), 1) * (VIRIDIS.length - 1);
-  const low = Math.min(Math.floor(at), VIRIDIS.length - 2);
+/** The colour of a value between 0 and 1 among colours of equal distance, in hexadecimal digits. */
+export function colourAmong(colours: readonly string[], part: number): string {
+  const at = Math.min(Math.max(part, 0), 1) * (colours.length - 1);
+  const low = Math.min(Math.floor(at), colours.length - 2);
   const channel = (i: number) => {
-    const [a, b] = [VIRIDIS[low]!, VIRIDIS[low + 1]!].map((hex) => parseInt(hex.slice(2 * i, 2 * i + 2), 16));
+    const [a, b] = [colours[low]!, colours[low + 1]!].map((hex) => parseInt(hex.slice(2 * i, 2 * i + 2), 16));
     return Math.round(a! + (b! - a!) * (at - low)).toString(16).padStart(2, '0');
   };
   return `#${channel(0)}${channel(1)}${channel(2)}`;
+}
+
+/** The colour of a value between 0 and 1, of the map viridis. */
+export function viridis(part: number): string {
+  return colourAmong(VIRIDIS, part);
 }
 
 /** Black or white, whichever can be read on viridis. */

@@ -4,7 +4,7 @@
 import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
-import {pixelsOf, type Raster} from '../model/raster';
+import {pixelsOf, waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {FONT, type Ink} from './axes';
 import {crowded, endNames, placeLabels, shortName} from './words';
@@ -39,8 +39,24 @@ export function pictureOf(raster: Raster, window: [number, number], columns: num
   return canvas;
 }
 
-function drawRaster({u, panel: {raster}}: Sheet): void {
+function drawWaterfall(sheet: Sheet, raster: Raster): void {
+  const {u, theme} = sheet;
+  clipped(sheet, (ctx) => {
+    ctx.lineWidth = devicePixelRatio;
+    ctx.lineJoin = 'round';
+    for (const {colour, y} of waterfallOf(raster, theme === 'dark')) {
+      ctx.beginPath();
+      for (let i = 0; i < y.length; ++i) ctx.lineTo(px(u, raster.time[i]!), py(u, y[i]!));
+      ctx.strokeStyle = colour;
+      ctx.stroke();
+    }
+  });
+}
+
+function drawRaster(sheet: Sheet): void {
+  const {u, panel: {raster}} = sheet;
   if (!raster || raster.time.length === 0) return;
+  if (raster.lines) return drawWaterfall(sheet, raster);
   const {left, top, width, height} = u.bbox;
   const {min, max} = u.scales.x!;
   u.ctx.imageSmoothingEnabled = false;

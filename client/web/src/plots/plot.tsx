@@ -40,7 +40,7 @@ function inkOf(element: Element): Ink {
 
 /** What makes another plot necessary, rather than other data. */
 function structure(panel: Panel): string {
-  return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length, !!panel.raster,
+  return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length, !!panel.raster, panel.raster?.lines,
     lines(panel).map(({mark, colour}) => [mark, colour])]);
 }
 
@@ -75,7 +75,7 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
 
 /** What a plot shows, for those who do not see it. */
 function namesOf({title, xLabel, yLabel, curves, raster}: Panel): string {
-  return `${title}: ${raster?.label ?? yLabel} over ${xLabel}; ${raster ? `${raster.rows.length} contacts as colours` : ''}${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
+  return `${title}: ${raster?.label ?? yLabel} over ${xLabel}; ${raster ? `${raster.rows.length} rows as ${raster.lines ? 'lines' : 'colours'}, one a ${yLabel}` : ''}${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
 }
 
 /** The attributes of a plot whose points are chosen. */

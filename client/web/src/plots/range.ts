@@ -1,6 +1,7 @@
 // What part of the plane a panel shows.
 
 import {extent, lowerBound, type Panel} from '../model/panel';
+import {rowRange} from '../model/raster';
 
 export type Window = [number, number];
 
@@ -25,7 +26,7 @@ const between = (values: ArrayLike<number>, first: number, end: number): ArrayLi
 
 /** The y axis: all values inside the x range, and room for labels. */
 export function yRange(panel: Panel, [from, to]: Window): Window {
-  if (panel.raster) return [0.5, panel.raster.rows.length + 0.5];
+  if (panel.raster) return rowRange(panel.raster);
   const inside = drawn(panel).map(({x, y}) => {
     if (!panel.overTime) return y;
     const first = Math.max(lowerBound(x, from) - 1, 0);

@@ -3,7 +3,7 @@
 import type uPlot from 'uplot';
 
 import type {Curve, Panel} from '../model/panel';
-import type {Raster} from '../model/raster';
+import {waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
 import {lines, NAMED_FROM_PX} from './build';
@@ -84,12 +84,17 @@ function curve({u, x, y}: Frame, drawn: Curve): string {
   return `<path d="${path}" ${strokeOf(drawn)}/>`;
 }
 
+function waterfall({x, y: at}: Frame, raster: Raster): string {
+  return waterfallOf(raster).map(({colour, y}) =>
+    `<path d="${Array.from(y, (value, i) => `${i ? 'L' : 'M'}${r(x(raster.time[i]!))} ${r(at(value))}`).join('')}" stroke="${colour}"/>`).join('');
+}
+
 function behind(frame: Frame, {bands = [], dottedLines = [], raster}: Panel): string {
   const {left, top, width, height} = frame;
   const {min, max} = frame.u.scales.x!;
   const image = (colours: Raster) => `<image x="${r(left)}" y="${r(top)}" width="${r(width)}" height="${r(height)}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${pictureOf(colours, [min!, max!], Math.round(2 * width)).toDataURL()}"/>`;
   return [
-    raster && raster.time.length > 0 ? image(raster) : '',
+    raster && raster.time.length > 0 ? (raster.lines ? waterfall(frame, raster) : image(raster)) : '',
     ...bands.map(({start, end}) => `<rect x="${r(frame.x(start))}" y="${r(top)}" width="${r(Math.max(frame.x(end) - frame.x(start), 0.5))}" height="${r(height)}" fill="#000" fill-opacity=".06" stroke="none"/>`),
     ...dottedLines.map((y) => `<path d="M${r(left)} ${r(frame.y(y))}h${r(width)}" stroke="#666" stroke-dasharray="2 4"/>`),
   ].join('');

@@ -3,7 +3,7 @@
 import {useEffect, useMemo} from 'preact/hooks';
 
 import {bandsOf, type RunPart} from '../../model/curves';
-import {PRESETS, type Preset} from '../../model/presets';
+import {FIRST, MOST_BODIES, MOST_CONTACTS, PRESETS, presetsFor, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import type {Series} from '../../api/series';
 import type {RunState} from '../../model/runState';
@@ -27,20 +27,9 @@ interface Props {
   source: string;
 }
 
-const FIRST = 6;   // Plots of the page; the others are shown when asked for.
-const MOST_CONTACTS = 12;
-const MOST_MAPPED = 400; // Of which a map is made: the server thins less for fewer columns.
-const MOST_BODIES = 200;   // Of whose energy a plot is made.
-
-/** The part of a scenario that fits a plot. The energy is that of all bodies, the map is of all contacts. */
+/** The part of a scenario that fits a plot. The energy is that of all bodies, and maps and waterfalls are of all. */
 export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
-  return preset.id === 'energy' || preset.id === 'force-map' ? mechanics : crop(mechanics, contact);
-}
-
-/** The plots that can be made of a scenario. */
-export function presetsFor({bodies, contacts}: Mechanics): Preset[] {
-  const mapped = contacts.length > MOST_CONTACTS && contacts.length <= MOST_MAPPED;
-  return PRESETS.filter(({id}) => (id !== 'energy' || bodies.length <= MOST_BODIES) && (id !== 'force-map' || mapped));
+  return preset.id === 'energy' || preset.many ? mechanics : crop(mechanics, contact);
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {

@@ -4,6 +4,7 @@ import {useEffect, useMemo} from 'preact/hooks';
 
 import {isFinal} from '../../api/watch';
 import {mechanicsOf, type Mechanics} from '../../model/mechanics';
+import {presetsAsked} from '../../model/presets';
 import type {RunState} from '../../model/runState';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
@@ -14,16 +15,16 @@ import {Details} from './details';
 import {Header} from './header';
 import {Iterations} from './iterations';
 import {Ledger} from './ledger';
-import {Motion, partFor, presetsFor} from './motion';
+import {Motion, partFor} from './motion';
 import {StripView, stripChannels} from './strip_view';
 import {useRun} from './use_run';
 import {useSeries} from './use_series';
 import {windowOf} from './window';
 
 /** The columns of all plots and the strip, each once. */
-function channelsOf(mechanics: Mechanics, contact: string | null): string[] {
+function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean): string[] {
   if (mechanics.scenario.output?.ledgerOnly) return [];
-  const ofPlots = presetsFor(mechanics).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact)));
+  const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact)));
   return [...new Set([...ofPlots, ...stripChannels(mechanics)])];
 }
 
@@ -34,7 +35,8 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const newest = run.job?.summary?.timeReachedS ?? run.progress?.timeS ?? 0;
   const window = windowOf(query, newest);
   const source = [run.job!.title, `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
-  const channels = useMemo(() => channelsOf(mechanics, query.get('contact')), [mechanics, query.get('contact')]);
+  const all = query.get('plots') === 'all';
+  const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all), [mechanics, query.get('contact'), all]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
   const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.

@@ -1,10 +1,10 @@
 #include <cmath>
 #include <limits>
 
-#include "cli/translate/damping.h"
-#include "cli/translate/tool.h"
+#include "translate/damping.h"
+#include "translate/tool.h"
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 using Values = std::vector<double>;
@@ -267,4 +267,4 @@ std::vector<Tool> GranularTools() {
   };
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

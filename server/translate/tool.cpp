@@ -1,4 +1,4 @@
-#include "cli/translate/tool.h"
+#include "translate/tool.h"
 
 #include <fmt/args.h>
 #include <fmt/format.h>
@@ -6,9 +6,8 @@
 #include <algorithm>
 
 #include "base/spelling.h"
-#include "cli/base/failure.h"
 
-namespace contact::cli {
+namespace contact::translate {
 
 std::span<const Tool> Tools() {
   static const std::vector<Tool> tools = [] {
@@ -21,15 +20,15 @@ std::span<const Tool> Tools() {
   return tools;
 }
 
-const Tool& FindTool(const std::string& name) {
+const Tool* FindTool(std::string_view name) {
+  const auto found = std::ranges::find(Tools(), name, &Tool::name);
+  return found == Tools().end() ? nullptr : &*found;
+}
+
+std::string ToolHint(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const Tool& tool : Tools()) {
-    if (tool.name == name) return tool;
-    names.push_back(tool.name);
-  }
-  throw Failure(ExitCode::kUsage,
-                WithHint(fmt::format("there is no tool {}", Quoted(name)),
-                         DidYouMean(name, names, fmt::format("{}", fmt::join(names, ", ")))));
+  for (const Tool& tool : Tools()) names.push_back(tool.name);
+  return DidYouMean(name, names, fmt::format("{}", fmt::join(names, ", ")));
 }
 
 std::string LineOf(const Tool& tool, const std::vector<double>& values) {
@@ -41,4 +40,4 @@ std::string LineOf(const Tool& tool, const std::vector<double>& values) {
   return fmt::vformat(tool.line, arguments);
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "cli/translate/damping.h"
-#include "cli/translate/tool.h"
+#include "translate/damping.h"
+#include "translate/tool.h"
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 using Values = std::vector<double>;
@@ -157,4 +157,4 @@ std::vector<Tool> EngineTools() {
   return {Bullet(), ChronoHertz(), ChronoHooke(), ChronoMaterial(), MuJoCo(), Ode()};
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

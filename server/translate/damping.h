@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "cli/translate/impact.h"
+#include "translate/impact.h"
 
-namespace contact::cli {
+namespace contact::translate {
 
 /// The damping c, in units of DampingUnit, with which an isolated collision gives back ε in (0, 1]
 /// under a law like `law`, whose own k and c do not count. Its `full_depth` is in units of
@@ -34,4 +34,4 @@ ForceLaw WithDuration(ForceLaw law, const Collision& collision, double duration)
 /// `law` with this k [N/mⁿ]; c and full_depth as before, after.
 ForceLaw WithStiffness(ForceLaw law, const Collision& collision, double stiffness);
 
-}  // namespace contact::cli
+}  // namespace contact::translate

@@ -1,14 +1,14 @@
-#include "cli/translate/impact.h"
+#include "translate/impact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "cli/translate/damping.h"
 #include "simulation/laws/isolated_collision.h"
+#include "translate/damping.h"
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -140,4 +140,4 @@ TEST(Impact, AnOverdampedContactThatPullsDoesNotPart) {
 }
 
 }  // namespace
-}  // namespace contact::cli
+}  // namespace contact::translate

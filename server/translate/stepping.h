@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cli/translate/impact.h"
+#include "translate/impact.h"
 
-namespace contact::cli {
+namespace contact::translate {
 
 /// How a simulator steps through a contact.
 enum class Stepping {
@@ -25,4 +25,4 @@ struct SteppedRebound {
 SteppedRebound Step(const ForceLaw& law, const Collision& collision, Stepping stepping,
                     double step);
 
-}  // namespace contact::cli
+}  // namespace contact::translate

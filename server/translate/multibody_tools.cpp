@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "cli/translate/tool.h"
+#include "translate/tool.h"
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 using Values = std::vector<double>;
@@ -150,4 +150,4 @@ std::vector<Tool> MultibodyTools() {
           Simbody()};
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

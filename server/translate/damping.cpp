@@ -1,4 +1,4 @@
-#include "cli/translate/damping.h"
+#include "translate/damping.h"
 
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 double Delivered(ForceLaw law, double damping) {
@@ -75,4 +75,4 @@ ForceLaw WithDuration(ForceLaw law, const Collision& collision, double duration)
                            std::pow(length, law.exponent + 1));
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/translate/stepping.h"
+#include "translate/stepping.h"
 
-namespace contact::cli {
+namespace contact::translate {
 
 /// What a simulator's parameters depend on beside the law.
 struct Setup {
@@ -24,7 +24,7 @@ struct ToolParameter {
 
 /// A contact model of a simulator: its law, and how its parameters stand for it.
 struct Tool {
-  std::string_view name;   ///< As in the command line, such as `lammps-hooke`.
+  std::string_view name;   ///< Of the model, such as `lammps-hooke`.
   std::string_view title;  ///< The simulator and the model.
   /// Where the formulas were read: the page or file, and the version of what was run or read.
   std::string_view source;
@@ -48,8 +48,11 @@ struct Tool {
 /// Every tool, sorted by name. They live as long as the program.
 std::span<const Tool> Tools();
 
-/// The tool with this name. Throws Failure (kUsage) with the nearest name if there is none.
-const Tool& FindTool(const std::string& name);
+/// The tool with this name; null if there is none.
+const Tool* FindTool(std::string_view name);
+
+/// What to do about a name that no tool has: the nearest name, or all names.
+std::string ToolHint(std::string_view name);
 
 /// The line of a tool with these values, to ten digits.
 std::string LineOf(const Tool& tool, const std::vector<double>& values);
@@ -60,4 +63,4 @@ std::vector<Tool> MultibodyTools();
 std::vector<Tool> EngineTools();
 std::vector<Tool> GranularTools();
 
-}  // namespace contact::cli
+}  // namespace contact::translate

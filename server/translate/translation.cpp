@@ -1,4 +1,4 @@
-#include "cli/translate/translation.h"
+#include "translate/translation.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/translate/damping.h"
+#include "translate/damping.h"
 
-namespace contact::cli {
+namespace contact::translate {
 namespace {
 
 // At 20 steps a contact ε = 0.9 comes out as 0.71 to 0.74 in ODE and as 0.896 to 0.909 in LAMMPS
@@ -16,6 +16,10 @@ namespace {
 constexpr double kFewSteps = 20;
 // Above it a step changes ε by less than 1e-4, and is not looked at.
 constexpr double kManySteps = 20'000;
+
+// More damping, in units of the collision, lets less than a thousandth of the speed come back, and
+// the integration takes the longer the more of it there is.
+constexpr double kMostDamping = 1e3;
 
 double DurationOf(const Wanted& wanted, const Setup& setup) {
   if (wanted.duration > 0) return wanted.duration;
@@ -113,18 +117,15 @@ void Measure(Translation* found, const Setup& setup) {
 
 }  // namespace
 
-std::string Missing(const Tool& tool, const Setup& setup) {
-  if (tool.needs_radius && setup.radius == 0) return "--radius";
-  if (tool.needs_step && setup.step == 0) return "--step";
+std::string_view Missing(const Tool& tool, const Setup& setup) {
+  if (tool.needs_radius && setup.radius == 0) return "radius";
+  if (tool.needs_step && setup.step == 0) return "step";
   return {};
 }
 
 Translation Translate(const Tool& tool, const Wanted& wanted, const Setup& setup) {
-  Translation found{.tool = &tool};
-  if (const std::string missing = Missing(tool, setup); !missing.empty()) {
-    found.warnings.push_back("needs " + missing);
-    return found;
-  }
+  Translation found{.tool = &tool, .missing = Missing(tool, setup)};
+  if (!found.missing.empty()) return found;
   const std::optional<double> damping = DampingFor(tool.law, wanted.restitution);
   if (!damping) {
     found.warnings.emplace_back("no damping gives back so little");
@@ -140,6 +141,12 @@ Translation Translate(const Tool& tool, const Wanted& wanted, const Setup& setup
   found.textbook = ByTextbook(found, wanted, setup);
   Measure(&found, setup);
   return found;
+}
+
+bool CanJudge(const Tool& tool, const std::vector<double>& values, const Setup& setup) {
+  const ForceLaw law = tool.read(tool.law, values, setup);
+  return law.stiffness > 0 && std::isfinite(law.stiffness) && law.damping >= 0 &&
+         law.damping <= kMostDamping * DampingUnit(law, setup.collision);
 }
 
 Translation Judge(const Tool& tool, std::vector<double> values, const Setup& setup) {
@@ -158,4 +165,4 @@ Wanted WantedOf(const Translation& from) {
           .duration = from.alone.duration};
 }
 
-}  // namespace contact::cli
+}  // namespace contact::translate

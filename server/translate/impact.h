@@ -1,6 +1,6 @@
 #pragma once
 
-namespace contact::cli {
+namespace contact::translate {
 
 /// What a simulator does about a contact force that would pull the bodies together.
 enum class Pull {
@@ -58,4 +58,4 @@ double LengthUnit(const ForceLaw& law, const Collision& collision);
 /// The unit of c [N·s/mᵖ⁺¹] that goes with LengthUnit.
 double DampingUnit(const ForceLaw& law, const Collision& collision);
 
-}  // namespace contact::cli
+}  // namespace contact::translate
