@@ -33,6 +33,11 @@ std::vector<Case> Cases() {
       {"TitleOf201Characters",
        [](S& s) { s.set_title(std::string(201, 'x')); },
        {"title: has 201 characters; must have at most 200"}},
+      {"SupportOfOrder8",
+       [](S& s) {
+         for (int i = 0; i < 7; ++i) s.mutable_supports(0)->add_higher_stiffness(1);
+       },
+       {"supports[0].higher_stiffness: holds 7; must hold at most 6"}},
       {"NoBodies",
        [](S& s) { s.clear_bodies(), s.clear_contacts(), s.clear_supports(), s.clear_loads(); },
        {"bodies: is missing — a scenario needs at least one body"}},

@@ -184,5 +184,9 @@ def _spring(support: scenario_pb2.Support, arrays: dict[str, Array]) -> Array:
     if support.other:
         stretch = stretch - arrays[f"{support.other}.position"]
     stretch = stretch - support.rest_position_m
-    energy: Array = 0.5 * support.stiffness_n_per_m * stretch * stretch
+    share = np.zeros_like(stretch)  # Over the square of the stretch.
+    for order, stiffness in reversed(list(enumerate(
+            [support.stiffness_n_per_m, *support.higher_stiffness], start=2))):
+        share = share * stretch + stiffness / order
+    energy: Array = share * stretch * stretch
     return energy

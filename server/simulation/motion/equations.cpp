@@ -31,8 +31,9 @@ Equations::Equations(const Scenario& scenario)
   Rebase(positions);
   support_rates_.resize(positions.size());
   for (const Support& s : scenario.supports) {
-    support_rates_[At(s.body)] += s.stiffness * inverse_mass_[At(s.body)];
-    if (s.other != kNone) support_rates_[At(s.other)] += s.stiffness * inverse_mass_[At(s.other)];
+    const double stiffness = StiffnessOf(scenario, s);
+    support_rates_[At(s.body)] += stiffness * inverse_mass_[At(s.body)];
+    if (s.other != kNone) support_rates_[At(s.other)] += stiffness * inverse_mass_[At(s.other)];
   }
   for (const Contact& c : scenario.contacts) sides_.push_back(SidesOf(c.left, c.right));
   const auto mark = [this](const auto& pieces) {
@@ -119,7 +120,7 @@ void Equations::Rebase(const std::vector<double>& positions) {
 
 double Equations::SupportForce(std::size_t support, const double* u, const double* v) const {
   const Support& s = scenario_.supports[support];
-  return -s.stiffness * Stretch(support, u) - s.damping * Relative(s, v);  // (M4)
+  return -SpringOf(support, Stretch(support, u)).force - s.damping * Relative(s, v);  // (M4)
 }
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
@@ -308,8 +309,7 @@ double Equations::Energy(const double* y) const {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
   for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
-    const double x = Stretch(i, y);
-    energy += 0.5 * scenario_.supports[i].stiffness * x * x;
+    energy += SpringOf(i, Stretch(i, y)).energy;
   }
   for (const ActiveContact& c : active) {
     energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);

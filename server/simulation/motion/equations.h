@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/laws/power.h"
+#include "simulation/laws/spring.h"
 #include "simulation/model/scenario.h"
 #include "simulation/motion/state_layout.h"
 
@@ -121,7 +122,13 @@ class Equations : public StateLayout {
 
   /// By how much the support with this index is longer than without force [m].
   double Stretch(std::size_t support, const double* u) const {
-    return stretches_[support] + Relative(scenario_.supports[support], u);
+    return StretchAtBase(support) + Relative(scenario_.supports[support], u);
+  }
+  double StretchAtBase(std::size_t support) const { return stretches_[support]; }
+  /// The spring of the support with this index, at that length.
+  Spring SpringOf(std::size_t support, double stretch) const {
+    const Support& s = scenario_.supports[support];
+    return {s.stiffness, s.higher, stretch};
   }
   /// Two bodies, or a body and, as kNone, a wall.
   Sides SidesOf(int left, int right) const;

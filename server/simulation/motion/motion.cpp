@@ -150,6 +150,11 @@ void Motion::FollowStep() {
     const auto [start, end] = system_.PathEnds(active.contact);
     paths_.emplace_back(start, end);
   }
+  for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
+    if (system_.scenario.supports[i].higher.empty()) continue;
+    const auto [start, end] = system_.StretchEnds(i);
+    paths_.emplace_back(start, end);
+  }
   double from = 0;
   for (const auto& [contact, time] : turns_) {
     const double theta = std::min(system_.step.Theta(time), 1.0);

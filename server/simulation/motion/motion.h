@@ -107,7 +107,7 @@ class Motion {
   State totals_;
   // The contacts that turn in the step, and when [s].
   std::vector<std::pair<int, double>> turns_;
-  // The deformations of the active contacts in the step.
+  // The deformations of the active contacts, and the stretches of bent springs, in the step.
   std::vector<DeformationPath> paths_;
   // y at a turn inside the step.
   Eigen::ArrayXd inside_;

@@ -81,8 +81,10 @@ void Stepper::Begin() {
   for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
     const Support& s = system_.scenario.supports[i];
     const Sides sides = system_.equations.SidesOf(s.body, s.other);
-    const double rate = std::sqrt(s.stiffness * (sides.left_inverse + sides.right_inverse));
-    const double length = digits * std::abs(system_.equations.Stretch(i, system_.rk.y0.data()));
+    const double stretch = system_.equations.Stretch(i, system_.rk.y0.data());
+    const double stiffness = std::abs(system_.equations.SpringOf(i, stretch).slope);
+    const double rate = std::sqrt(stiffness * (sides.left_inverse + sides.right_inverse));
+    const double length = digits * std::abs(stretch);
     flight_length_ = std::max(flight_length_, length);
     flight_speed_ = std::max(flight_speed_, length * rate);
   }

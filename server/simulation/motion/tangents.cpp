@@ -72,14 +72,19 @@ void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>
     std::vector<Law>& laws = stages_.laws[j];
     stages_.pace[j] = pace;
     laws.clear();
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::size_t contacts = equations_.active.size();
+    for (std::size_t i = 0; i < contacts; ++i) {
       const double rate = paths[i].Slope(theta) / slow;
       const ActiveContact::Force f = equations_.active[i].At(paths[i].Value(theta), rate);
       laws.push_back(
           {pace * f.force, pace * f.by_deformation, pace * f.by_rate, pace * f.damping, rate});
     }
-    for (const Support& s : scenario_.supports) {  // (M4)
-      laws.push_back({.by_deformation = pace * s.stiffness, .by_rate = pace * s.damping});
+    auto stretch = paths.begin() + static_cast<std::ptrdiff_t>(contacts);
+    for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {  // (M4)
+      const Support& s = scenario_.supports[i];
+      const double slope =
+          s.higher.empty() ? s.stiffness : equations_.SpringOf(i, (stretch++)->Value(theta)).slope;
+      laws.push_back({.by_deformation = pace * slope, .by_rate = pace * s.damping});
     }
   }
 }

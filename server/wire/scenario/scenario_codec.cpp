@@ -35,6 +35,21 @@ void AddWalls(DecodedContacts decoded, Scenario* scenario) {
   std::ranges::move(decoded.drives, std::back_inserter(scenario->drives));
 }
 
+// k₂, k₃, … of a support.
+std::vector<double> DecodeHigher(const v1::Support& support, const Rules& rules) {
+  constexpr int kField = v1::Support::kHigherStiffnessFieldNumber;
+  static const Range range = RangeOf(*v1::Support::descriptor()->FindFieldByNumber(kField));
+  const int count = support.higher_stiffness_size();
+  const int most = RuleOf<v1::Support>(kField).max_entries();
+  if (!rules.RequireAtMost("higher_stiffness", count, most)) return {};
+  for (int i = 0; i < count; ++i) {
+    const double stiffness = support.higher_stiffness(i);
+    if (range.Contains(stiffness)) continue;  // Composes no path.
+    rules.Require(fmt::format("higher_stiffness[{}]", i), stiffness, range);
+  }
+  return {support.higher_stiffness().begin(), support.higher_stiffness().end()};
+}
+
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames& names,
                                     std::vector<Violation>* violations) {
   std::vector<Support> supports;
@@ -52,7 +67,8 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames
                         .other = other,
                         .stiffness = rules.Read(support, Field::kStiffnessNPerMFieldNumber),
                         .damping = rules.Read(support, Field::kDampingNSPerMFieldNumber),
-                        .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber)});
+                        .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber),
+                        .higher = DecodeHigher(support, rules)});
   }
   return supports;
 }

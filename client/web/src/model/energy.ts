@@ -32,12 +32,18 @@ function elastic({contacts}: Mechanics, series: Series, into: Float64Array): voi
   }
 }
 
+/** ∫ k₁ d + k₂ d² + … dd. */
+function springEnergy(stiffnesses: number[], stretch: number): number {
+  return stretch ** 2 * stiffnesses.reduceRight((sum, k, i) => sum * stretch + k / (i + 2), 0);
+}
+
 function supports({scenario}: Mechanics, series: Series, into: Float64Array): void {
-  for (const {body, other, stiffnessNPerM, restPositionM} of scenario.supports) {
+  for (const {body, other, stiffnessNPerM, higherStiffness, restPositionM} of scenario.supports) {
     const end = column(series, `${body}.position`);
     const start = other ? column(series, `${other}.position`) : undefined;
     for (let i = 0; i < into.length; ++i) {
-      into[i]! += 0.5 * stiffnessNPerM * (end[i]! - (start?.[i] ?? 0) - restPositionM) ** 2;
+      const stretch = end[i]! - (start?.[i] ?? 0) - restPositionM;
+      into[i]! += springEnergy([stiffnessNPerM, ...higherStiffness], stretch);
     }
   }
 }
