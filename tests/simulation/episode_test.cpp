@@ -77,6 +77,14 @@ TEST(Sensitivities, AgreeWithFiniteDifferencesBesidePolynomialSprings) {
   ExpectFiniteDifferences(s);
 }
 
+// One slips and sticks while both contacts are closed, the other slips on.
+TEST(Sensitivities, AgreeWithFiniteDifferencesBesideSpringsThatSlip) {
+  Scenario s = testing::TripleChain();
+  s.supports = {{.body = 1, .other = 0, .stiffness = 1e6, .rest_position = 0.1, .slip_force = 10},
+                {.body = 2, .stiffness = 1e6, .rest_position = 0.2, .slip_force = 20}};
+  ExpectFiniteDifferences(s);
+}
+
 TEST(Episode, AnIsolatedCollisionNeedsNoCorrection) {
   for (const double n : {1.0, 1.5, 2.5}) {
     for (const double e : {0.1, 0.5, 0.9}) {

@@ -46,7 +46,7 @@ std::vector<Forces> ForcesOn(const Scenario& scenario) {
   for (const Load& load : scenario.loads) Add(load, scenario.end_time, &forces[At(load.body)]);
   for (const Support& support : scenario.supports) {
     Forces& own = forces[At(support.body)];
-    if (!support.higher.empty()) own.linked = true;
+    if (!support.IsLinear()) own.linked = true;
     if (support.other == kNone) {
       own.stiffness += support.stiffness;
       own.rest += support.stiffness * support.rest_position;

@@ -26,6 +26,14 @@ struct Spring {
     force *= d;
     energy = share * d * d;
   }
+
+  /// A linear spring that slips with this force, of either sign.
+  static Spring Slipping(double stiffness, double force) {
+    Spring spring(stiffness, {}, force / stiffness);
+    spring.force = force;
+    spring.slope = 0;
+    return spring;
+  }
 };
 
 }  // namespace contact

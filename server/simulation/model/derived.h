@@ -87,15 +87,19 @@ inline const Body* SmallerSphere(const Scenario& scenario, const Contact& contac
   return smaller;
 }
 
-/// The stiffness of a support as rates want it [N/m]: the larger of those without force and at t =
-/// 0.
-inline double StiffnessOf(const Scenario& scenario, const Support& support) {
-  if (support.higher.empty()) return support.stiffness;
+/// By how much a support is longer at t = 0 than without force [m].
+inline double InitialStretch(const Scenario& scenario, const Support& support) {
   const auto place = [&](int body) {
     return body == kNone ? 0 : scenario.bodies[static_cast<std::size_t>(body)].position;
   };
-  const double stretch = place(support.body) - place(support.other) - support.rest_position;
-  const Spring spring(support.stiffness, support.higher, stretch);
+  return place(support.body) - place(support.other) - support.rest_position;
+}
+
+/// The stiffness of a support as rates want it [N/m]: the larger of those without force and at the
+/// start.
+inline double StiffnessOf(const Scenario& scenario, const Support& support) {
+  if (support.higher.empty()) return support.stiffness;
+  const Spring spring(support.stiffness, support.higher, InitialStretch(scenario, support));
   return std::max(support.stiffness, std::abs(spring.slope));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -57,6 +58,11 @@ struct Support {
   double rest_position = 0;  ///< x − x_other without force [m].
   /// k₂, k₃, … [N/m², N/m³, …]; none: the spring is linear.
   std::vector<double> higher = {};
+  /// Largest force of the spring [N], > 0, at which it slips; infinite unless it is linear, k > 0.
+  double slip_force = std::numeric_limits<double>::infinity();
+
+  /// Whether the force depends on the stretch alone, and on it linearly.
+  bool IsLinear() const { return higher.empty() && std::isinf(slip_force); }
 };
 
 /// A smooth piece of a force on a body that depends on time only: in begin ≤ t < end

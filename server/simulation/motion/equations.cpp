@@ -22,6 +22,7 @@ ActiveContact::Force ActiveContact::General(double deformation, double rate) con
 Equations::Equations(const Scenario& scenario)
     : StateLayout(static_cast<int>(scenario.bodies.size()),
                   static_cast<int>(scenario.contacts.size())),
+      slips(scenario.supports.size()),
       scenario_(scenario) {
   std::vector<double> positions;
   for (const Body& body : scenario.bodies) {
@@ -282,6 +283,7 @@ void Equations::AddRecord(double t, const double* y, double* dy, double pace) co
     const Support& s = scenario_.supports[i];
     const double rate = Relative(s, v);
     dy[support_loss()] += pace * s.damping * rate * rate;
+    if (slips[i].side != 0) dy[support_loss()] += pace * s.slip_force * slips[i].side * rate;
     dy[impulse()] += pace * SupportForce(i, y, v) * (free(s.body) - free(s.other));
   }
 }

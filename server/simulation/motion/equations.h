@@ -10,6 +10,7 @@
 #include "simulation/laws/power.h"
 #include "simulation/laws/spring.h"
 #include "simulation/model/scenario.h"
+#include "simulation/motion/state.h"
 #include "simulation/motion/state_layout.h"
 
 namespace contact {
@@ -124,10 +125,14 @@ class Equations : public StateLayout {
   double Stretch(std::size_t support, const double* u) const {
     return StretchAtBase(support) + Relative(scenario_.supports[support], u);
   }
-  double StretchAtBase(std::size_t support) const { return stretches_[support]; }
+  double StretchAtBase(std::size_t support) const {
+    return stretches_[support] - slips[support].slack;
+  }
   /// The spring of the support with this index, at that length.
   Spring SpringOf(std::size_t support, double stretch) const {
     const Support& s = scenario_.supports[support];
+    const int side = slips[support].side;
+    if (side != 0) return Spring::Slipping(s.stiffness, side * s.slip_force);
     return {s.stiffness, s.higher, stretch};
   }
   /// Two bodies, or a body and, as kNone, a wall.
@@ -180,6 +185,8 @@ class Equations : public StateLayout {
 
   /// The contacts that exert a force, in order of Scenario::contacts.
   std::vector<ActiveContact> active;
+  /// In order of Scenario::supports.
+  std::vector<Slip> slips;
 
  private:
   /// Adds the supports to the accelerations.

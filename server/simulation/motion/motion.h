@@ -9,6 +9,7 @@
 #include "simulation/motion/cycles.h"
 #include "simulation/motion/force_watch.h"
 #include "simulation/motion/moving_system.h"
+#include "simulation/motion/slips.h"
 #include "simulation/motion/state.h"
 #include "simulation/motion/step_events.h"
 #include "simulation/motion/stepper.h"
@@ -102,6 +103,7 @@ class Motion {
   Stepper stepper_;
   StepEvents events_;
   Cycles cycles_;
+  Slips slips_;
   ForceWatch forces_;
   // The balances at Begin; nothing else.
   State totals_;

@@ -33,6 +33,7 @@ void MovingSystem::Begin(const State& state, bool is_recording, double own_toler
   time = state.time;
   next_step = state.step;
   contacts = state.contacts;
+  equations.slips = state.slips;
   contact_loss = state.contact_loss;
   touch_time = kNaN;
   momentum_scale = energy_scale = 0;

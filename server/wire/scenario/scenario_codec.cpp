@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
+#include "simulation/model/derived.h"
 #include "wire/rules/rules.h"
 #include "wire/scenario/body_codec.h"
 #include "wire/scenario/contact_codec.h"
@@ -50,6 +52,31 @@ std::vector<double> DecodeHigher(const v1::Support& support, const Rules& rules)
   return {support.higher_stiffness().begin(), support.higher_stiffness().end()};
 }
 
+// The largest force of the spring.
+double DecodeSlip(const v1::Support& support, const Rules& rules) {
+  if (!support.has_slip_force_n()) return std::numeric_limits<double>::infinity();
+  if (support.higher_stiffness_size() > 0) {
+    rules.Break("slip_force_n", "is given beside higher_stiffness", "only a linear spring slips");
+  } else if (support.stiffness_n_per_m() == 0) {
+    rules.Break("slip_force_n", "is given, but stiffness_n_per_m is 0",
+                "give the stiffness up to that force, or remove it");
+  }
+  return rules.Read(support, v1::Support::kSlipForceNFieldNumber);
+}
+
+// No spring has slipped before t = 0.
+void CheckSlips(const Scenario& scenario, std::vector<Violation>* violations) {
+  for (std::size_t i = 0; i < scenario.supports.size(); ++i) {
+    const Support& s = scenario.supports[i];
+    const double force = s.stiffness * std::abs(InitialStretch(scenario, s));
+    if (force <= s.slip_force) continue;
+    Rules(violations, "supports", static_cast<int>(i))
+        .Break("slip_force_n",
+               fmt::format("is {}, but the spring begins with {} N", s.slip_force, force),
+               "give it a rest_position_m with which it begins with less, or a larger force");
+  }
+}
+
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames& names,
                                     std::vector<Violation>* violations) {
   std::vector<Support> supports;
@@ -68,7 +95,8 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames
                         .stiffness = rules.Read(support, Field::kStiffnessNPerMFieldNumber),
                         .damping = rules.Read(support, Field::kDampingNSPerMFieldNumber),
                         .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber),
-                        .higher = DecodeHigher(support, rules)});
+                        .higher = DecodeHigher(support, rules),
+                        .slip_force = DecodeSlip(support, rules)});
   }
   return supports;
 }
@@ -205,6 +233,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   DecodeOutput(message, limits, Rules(violations, "output"), &scenario);
   scenario.end_time = rules.Read(message, v1::Scenario::kEndTimeSFieldNumber);
   DecodeStart(message, rules, &scenario);
+  if (violations->empty()) CheckSlips(scenario, violations);
   return decoded;
 }
 

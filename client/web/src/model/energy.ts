@@ -38,12 +38,15 @@ function springEnergy(stiffnesses: number[], stretch: number): number {
 }
 
 function supports({scenario}: Mechanics, series: Series, into: Float64Array): void {
-  for (const {body, other, stiffnessNPerM, higherStiffness, restPositionM} of scenario.supports) {
+  for (const {body, other, stiffnessNPerM, higherStiffness, restPositionM, slipForceN} of scenario.supports) {
+    const most = slipForceN === undefined ? Infinity : slipForceN / stiffnessNPerM;
+    let slack = 0;  // The slack position of a spring that slips goes along, as samples tell.
     const end = column(series, `${body}.position`);
     const start = other ? column(series, `${other}.position`) : undefined;
     for (let i = 0; i < into.length; ++i) {
       const stretch = end[i]! - (start?.[i] ?? 0) - restPositionM;
-      into[i]! += springEnergy([stiffnessNPerM, ...higherStiffness], stretch);
+      slack = Math.min(Math.max(slack, stretch - most), stretch + most);
+      into[i]! += springEnergy([stiffnessNPerM, ...higherStiffness], stretch - slack);
     }
   }
 }
