@@ -15,8 +15,9 @@ struct Spring {
   double energy = 0;
 
   Spring(double stiffness, const std::vector<double>& higher, double d) {
-    double share = 0;  // Force and energy over d and d².
-    const auto add = [&](double order, double factor) {  // Horner's scheme, from the highest order.
+    double share = 0;  // Energy over d².
+    // Horner's scheme, from the highest order.
+    const auto add = [&](double order, double factor) {
       force = force * d + factor;
       slope = slope * d + order * factor;
       share = share * d + factor / (order + 1);

@@ -125,6 +125,7 @@ class Equations : public StateLayout {
   double Stretch(std::size_t support, const double* u) const {
     return StretchAtBase(support) + Relative(scenario_.supports[support], u);
   }
+  /// The same at displacements of 0 [m].
   double StretchAtBase(std::size_t support) const {
     return stretches_[support] - slips[support].slack;
   }

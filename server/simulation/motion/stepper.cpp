@@ -420,7 +420,7 @@ void Stepper::Compute(double h, bool parting) {
   system_.FinishStep();
 }
 
-// What is 0 at the event, δ or δ̇, at the end of the step, and its slope.
+// At the end of the step.
 Stepper::Residual Stepper::ResidualOf(const StepEvents::Found& found) const {
   const int n = system_.equations.bodies();
   if (found.support != kNone) return SlipResidual(found);
