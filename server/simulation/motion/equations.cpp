@@ -119,9 +119,12 @@ void Equations::Rebase(const std::vector<double>& positions) {
   }
 }
 
-double Equations::SupportForce(std::size_t support, const double* u, const double* v) const {
+[[gnu::always_inline]] inline double Equations::SupportForce(std::size_t support, const double* u,
+                                                             const double* v) const {
   const Support& s = scenario_.supports[support];
-  return -SpringOf(support, Stretch(support, u)).force - s.damping * Relative(s, v);  // (M4)
+  const double stretch = Stretch(support, u);
+  const double spring = s.IsLinear() ? s.stiffness * stretch : SpringOf(support, stretch).force;
+  return -spring - s.damping * Relative(s, v);  // (M4)
 }
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
