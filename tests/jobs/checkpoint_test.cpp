@@ -215,10 +215,12 @@ TEST(RunStateCodec, AsksForNoMoreMemoryThanItsBytes) {
 TEST(RunStateCodec, RefusesTheBytesOfAnotherBuild) {
   RunState state;
   state.state.time = 1.5;
+  state.state.slips = {{.slack = 0.5, .side = -1}};
   state.sampling.pending.values = {1, kNaN};
   const std::string bytes = EncodeRunState(state);
   ASSERT_TRUE(DecodeRunState(bytes).has_value());
   EXPECT_EQ(EncodeRunState(*DecodeRunState(bytes)), bytes);
+  EXPECT_EQ(DecodeRunState(bytes)->state.slips.at(0).side, -1);
   std::string other = bytes;
   ++other[8];  // The first letter of the version, after its length.
   EXPECT_FALSE(DecodeRunState(other).has_value());

@@ -58,6 +58,18 @@ class PlotsTest(ServerTest):
         np.testing.assert_allclose(total[time < 0.44], 0.5 * 9.81 * 1.0, rtol=1e-9)
         self.assertLess(total[-1], 0.5 * total[0])
 
+    def test_energy_of_a_spring_is_that_of_its_law(self):
+        for spring, falls in (({"higher_stiffness": [-40, 900]}, False),
+                              ({"slip_force_n": 20}, True)):
+            swing = self.client.run({
+                "bodies": [{"name": "mass", "mass_kg": 1, "velocity_m_per_s": 3}],
+                "supports": [{"body": "mass", "stiffness_n_per_m": 500, **spring}],
+                "end_time_s": 1})
+            total = swing.plot.energy().lines[-1].get_ydata()
+            np.testing.assert_allclose(total[swing["time"] > 0.5 * falls], total[-1], rtol=1e-3)
+            self.assertAlmostEqual(total[-1] / total[0], 20**2 / 500 / 2 / 4.5 if falls else 1,
+                                   delta=1e-3)
+
     def test_band_of_a_group_spans_its_cycles(self):
         result = self.client.run(two_balls_and_a_wall())
         group = next(g for g in result.job.groups if g.cycles == 2)

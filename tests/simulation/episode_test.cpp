@@ -45,8 +45,7 @@ FixedFactors Pass(const Scenario& scenario, const std::vector<double>& mu) {
 }
 
 // The true sensitivities of each cycle's works to each μ, against central differences.
-TEST(Sensitivities, AgreeWithFiniteDifferences) {
-  Scenario scenario = testing::TripleChain();
+void ExpectFiniteDifferences(Scenario scenario) {
   scenario.solver.relative_tolerance = 1e-13;
   const std::vector<double> mu = {2.2e8, 4.5e8};
   const FixedFactors base = Pass(scenario, mu);
@@ -66,6 +65,24 @@ TEST(Sensitivities, AgreeWithFiniteDifferences) {
           << i << ", " << column;
     }
   }
+}
+
+TEST(Sensitivities, AgreeWithFiniteDifferences) { ExpectFiniteDifferences(testing::TripleChain()); }
+
+TEST(Sensitivities, AgreeWithFiniteDifferencesBesidePolynomialSprings) {
+  Scenario s = testing::TripleChain();
+  s.supports = {
+      {.body = 2, .stiffness = 1e5, .damping = 20, .rest_position = 0.2, .higher = {3e9, 4e14}},
+      {.body = 1, .other = 0, .rest_position = 0.1, .higher = {-2e9, 5e13}}};
+  ExpectFiniteDifferences(s);
+}
+
+// One slips and sticks while both contacts are closed, the other slips on.
+TEST(Sensitivities, AgreeWithFiniteDifferencesBesideSpringsThatSlip) {
+  Scenario s = testing::TripleChain();
+  s.supports = {{.body = 1, .other = 0, .stiffness = 1e6, .rest_position = 0.1, .slip_force = 10},
+                {.body = 2, .stiffness = 1e6, .rest_position = 0.2, .slip_force = 20}};
+  ExpectFiniteDifferences(s);
 }
 
 TEST(Episode, AnIsolatedCollisionNeedsNoCorrection) {

@@ -112,6 +112,9 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
       {"comes to rest", BallThatComesToRest()},
       {"row", testing::Chain(std::vector<double>(6, 0.5), std::vector<double>(5, 1e8),
                              std::vector<double>(5, 0.8), 0.2, 0.01)}};
+  Scenario slips = testing::SpringWall();
+  slips.supports[0].slip_force = 400;
+  all.emplace_back("spring that slips", slips);
   // Several episodes, that hand each other what they know.
   all.emplace_back("long row",
                    testing::Chain(std::vector<double>(30, 0.5), std::vector<double>(29, 1e8),
@@ -123,7 +126,7 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
   paper.solver.update = UpdateRule::kPaperRatio;
   all.emplace_back("paper", paper);
   for (auto& [name, scenario] : all) scenario.sample_interval = scenario.end_time / 700;
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < 6; ++i) {
     all.emplace_back(all[i].first + ", sampled in cycles", all[i].second);
     all.back().second.samples_per_contact = 40;
   }

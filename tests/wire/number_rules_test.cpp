@@ -61,6 +61,15 @@ std::vector<NumberRule> NumberRules() {
        [](S& s, double v) { s.mutable_supports(0)->set_damping_n_s_per_m(v); }},
       {"supports[0].rest_position_m", -1e9, 1e9, "[-1e9, 1e9]",
        [](S& s, double v) { s.mutable_supports(0)->set_rest_position_m(v); }},
+      {"supports[0].slip_force_n", 0, 1e15, "(0, 1e15]",
+       [](S& s, double v) {
+         s.mutable_supports(0)->set_stiffness_n_per_m(1);
+         s.mutable_supports(0)->set_slip_force_n(v);
+       }},
+      {"supports[0].higher_stiffness[1]", -1e30, 1e30, "[-1e30, 1e30]",
+       [](S& s, double v) {
+         for (const double k : {0.0, v}) s.mutable_supports(0)->add_higher_stiffness(k);
+       }},
       {"loads[0].constant.force_n", -1e15, 1e15, "[-1e15, 1e15]",
        [](S& s, double v) { s.mutable_loads(0)->mutable_constant()->set_force_n(v); }},
       {"loads[1].sine.amplitude_n", -1e15, 1e15, "[-1e15, 1e15]",

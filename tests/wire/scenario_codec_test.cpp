@@ -78,7 +78,8 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
       contacts { name: "floor" between: "a" wall { position_m: -4 side: LEFT } stiffness: 1
                  restitution: 0.5 damping: FLORES reference_velocity_m_per_s: 0.25 }
       supports { body: "a" other: "b" stiffness_n_per_m: 11 damping_n_s_per_m: 12
-                 rest_position_m: 13 }
+                 rest_position_m: 13 higher_stiffness: [-18, 19] }
+      supports { body: "a" stiffness_n_per_m: 20 rest_position_m: -1 slip_force_n: 21 }
       loads { body: "a" constant { force_n: 14 } }
       loads { body: "a" sine { amplitude_n: 15 angular_frequency_rad_per_s: 16 phase_rad: 17 } }
       loads { body: "a" gravity { acceleration_m_per_s2: 2 } }
@@ -110,6 +111,9 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   EXPECT_EQ(s.supports[0].stiffness, 11);
   EXPECT_EQ(s.supports[0].damping, 12);
   EXPECT_EQ(s.supports[0].rest_position, 13);
+  EXPECT_THAT(s.supports[0].higher, testing::ElementsAre(-18, 19));
+  EXPECT_TRUE(std::isinf(s.supports[0].slip_force));
+  EXPECT_EQ(s.supports[1].slip_force, 21);
   EXPECT_EQ(s.loads[0].constant, 14);
   EXPECT_EQ(s.loads[1].amplitude, 15);
   EXPECT_EQ(s.loads[1].angular_frequency, 16);

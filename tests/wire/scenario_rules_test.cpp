@@ -33,6 +33,29 @@ std::vector<Case> Cases() {
       {"TitleOf201Characters",
        [](S& s) { s.set_title(std::string(201, 'x')); },
        {"title: has 201 characters; must have at most 200"}},
+      {"SupportOfOrder8",
+       [](S& s) {
+         for (int i = 0; i < 7; ++i) s.mutable_supports(0)->add_higher_stiffness(1);
+       },
+       {"supports[0].higher_stiffness: holds 7; must hold at most 6"}},
+      {"SlipOfABentSpring",
+       [](S& s) {
+         s.mutable_supports(0)->add_higher_stiffness(1);
+         s.mutable_supports(0)->set_slip_force_n(1);
+       },
+       {"supports[0].slip_force_n: is given beside higher_stiffness — only a linear spring slips"}},
+      {"SlipOfNoSpring",
+       [](S& s) { s.mutable_supports(0)->set_slip_force_n(1); },
+       {"supports[0].slip_force_n: is given, but stiffness_n_per_m is 0 — give the stiffness up to "
+        "that force, or remove it"}},
+      {"SlipBeforeTheStart",
+       [](S& s) {
+         s.mutable_supports(0)->set_stiffness_n_per_m(2);
+         s.mutable_supports(0)->set_rest_position_m(3);
+         s.mutable_supports(0)->set_slip_force_n(5.5);
+       },
+       {"supports[0].slip_force_n: is 5.5, but the spring begins with 6 N — give it a "
+        "rest_position_m with which it begins with less, or a larger force"}},
       {"NoBodies",
        [](S& s) { s.clear_bodies(), s.clear_contacts(), s.clear_supports(), s.clear_loads(); },
        {"bodies: is missing — a scenario needs at least one body"}},

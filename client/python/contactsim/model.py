@@ -179,10 +179,25 @@ def _elastic(law: ContactLaw, arrays: dict[str, Array]) -> Array:
     return energy
 
 
+def _beyond_slack(stretch: Array, most: float) -> Array:
+    """What is left of a stretch where the slack position goes along beyond ±most, as samples tell."""
+    left, slack = np.empty_like(stretch), 0.0
+    for i, length in enumerate(stretch):
+        slack = min(max(slack, length - most), length + most)
+        left[i] = length - slack
+    return left
+
+
 def _spring(support: scenario_pb2.Support, arrays: dict[str, Array]) -> Array:
     stretch = arrays[f"{support.body}.position"]
     if support.other:
         stretch = stretch - arrays[f"{support.other}.position"]
     stretch = stretch - support.rest_position_m
-    energy: Array = 0.5 * support.stiffness_n_per_m * stretch * stretch
+    if support.HasField("slip_force_n"):
+        stretch = _beyond_slack(stretch, support.slip_force_n / support.stiffness_n_per_m)
+    share = np.zeros_like(stretch)  # Over the square of the stretch.
+    for order, stiffness in reversed(list(enumerate(
+            [support.stiffness_n_per_m, *support.higher_stiffness], start=2))):
+        share = share * stretch + stiffness / order
+    energy: Array = share * stretch * stretch
     return energy

@@ -128,8 +128,13 @@ void serialize(Archive& archive, ContactState& c) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Slip& s) {
+  archive(s.slack, s.side);
+}
+
+template <class Archive>
 void serialize(Archive& archive, State& s) {
-  archive(s.time, s.step, s.positions, s.velocities, s.contacts);
+  archive(s.time, s.step, s.positions, s.velocities, s.contacts, s.slips);
   archive(s.load_work, s.support_loss, s.contact_loss, s.impulse);
 }
 

@@ -20,7 +20,7 @@ struct Forces {
   double right = 0;      // Largest push to the right of the loads that end [N].
   double left = 0;       // Largest push to the left of the loads that end [N].
   double passing = 0;    // Total duration of the loads that end [s].
-  bool linked = false;   // Whether a support ties it to another body.
+  bool linked = false;   // Whether a support ties it to another body, or is not linear.
 };
 
 void Add(const Load& load, double end_time, Forces* forces) {
@@ -46,6 +46,7 @@ std::vector<Forces> ForcesOn(const Scenario& scenario) {
   for (const Load& load : scenario.loads) Add(load, scenario.end_time, &forces[At(load.body)]);
   for (const Support& support : scenario.supports) {
     Forces& own = forces[At(support.body)];
+    if (!support.IsLinear()) own.linked = true;
     if (support.other == kNone) {
       own.stiffness += support.stiffness;
       own.rest += support.stiffness * support.rest_position;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "simulation/laws/spring.h"
 #include "simulation/model/scenario.h"
 
 namespace contact {
@@ -86,6 +87,22 @@ inline const Body* SmallerSphere(const Scenario& scenario, const Contact& contac
   return smaller;
 }
 
+/// By how much a support is longer at t = 0 than without force [m].
+inline double InitialStretch(const Scenario& scenario, const Support& support) {
+  const auto place = [&](int body) {
+    return body == kNone ? 0 : scenario.bodies[static_cast<std::size_t>(body)].position;
+  };
+  return place(support.body) - place(support.other) - support.rest_position;
+}
+
+/// The stiffness of a support as rates want it [N/m]: the larger of those without force and at the
+/// start.
+inline double StiffnessOf(const Scenario& scenario, const Support& support) {
+  if (support.higher.empty()) return support.stiffness;
+  const Spring spring(support.stiffness, support.higher, InitialStretch(scenario, support));
+  return std::max(support.stiffness, std::abs(spring.slope));
+}
+
 /// Fastest rate at which one of the loads or drives, or a support, changes its force [1/s]: ω of a
 /// sine, √(k/m) or c/m of a support, for which the ground and fixed bodies count 1/m = 0. 0: none
 /// does.
@@ -106,7 +123,7 @@ inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads,
   };
   for (const Support& s : scenario.supports) {
     const double w = inverse_mass(s.body) + inverse_mass(s.other);
-    rate = std::max({rate, std::sqrt(s.stiffness * w), s.damping * w});
+    rate = std::max({rate, std::sqrt(StiffnessOf(scenario, s) * w), s.damping * w});
   }
   return rate;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -48,13 +49,20 @@ struct Contact {
   double reference_velocity = 0;
 };
 
-/// A linear spring and damper: force on `body` −k (x − x_other − rest) − c (ẋ − ẋ_other).
+/// A spring and damper: force on `body` −k d − k₂ d² − k₃ d³ − … − c ḋ, d = x − x_other − rest.
 struct Support {
   int body = 0;              ///< Index in Scenario::bodies.
   int other = kNone;         ///< Index in Scenario::bodies; kNone: the ground, x_other = 0.
   double stiffness = 0;      ///< k [N/m], ≥ 0.
   double damping = 0;        ///< c [N·s/m], ≥ 0.
   double rest_position = 0;  ///< x − x_other without force [m].
+  /// k₂, k₃, … [N/m², N/m³, …]; none: the spring is linear.
+  std::vector<double> higher = {};
+  /// Largest force of the spring [N], > 0, at which it slips; infinite unless it is linear, k > 0.
+  double slip_force = std::numeric_limits<double>::infinity();
+
+  /// Whether the force depends on the stretch alone, and on it linearly.
+  bool IsLinear() const { return higher.empty() && std::isinf(slip_force); }
 };
 
 /// A smooth piece of a force on a body that depends on time only: in begin ≤ t < end

@@ -14,6 +14,9 @@ constexpr int kPieces = 8;
 constexpr double kFast = 100;
 // Part of a step in which bodies that separate are apart at last.
 constexpr double kSoonest = 1e-9;
+// Part of the largest stretch by which a peak that passes it is round-off, as where a spring has
+// just stuck.
+constexpr double kGraze = 1e-12;
 
 // Root of f between a and b, where it changes sign; a when it already has b's sign there.
 template <class F>
@@ -88,6 +91,15 @@ std::optional<ContactEvent> FirstTouch(const DeformationPath& path, double noise
   return ContactEvent{EventKind::kTouch, Root(value, 0, *peak)};
 }
 
+// First θ at which the path falls, in the direction of `sign`. At the end of a step that is warped
+// to it the slope is 0, whatever the rate, so that is looked at just before.
+std::optional<double> FirstFall(const DeformationPath& path, int sign) {
+  const double last = path.end.slope == 0 ? 1 - 1e-6 : 1;
+  const auto falling = [&](double part) { return -sign * path.Slope(part * last); };
+  const auto part = FirstPositive(falling, falling(1));
+  return part ? std::optional(*part * last) : std::nullopt;
+}
+
 }  // namespace
 
 DeformationPath::DeformationPath(End from, End to, double drift_of_step)
@@ -129,6 +141,25 @@ std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path,
   if (phase == Phase::kResting) return separation;
   const auto rest = first(EventKind::kNonSeparation, rising, path.end.slope);
   return separation && (!rest || separation->theta <= rest->theta) ? separation : rest;
+}
+
+std::optional<ContactEvent> FirstSlip(const DeformationPath& path, double most, int side) {
+  if (side != 0) {
+    const auto turn = FirstFall(path, side);
+    return turn ? std::optional(ContactEvent{EventKind::kStick, *turn}) : std::nullopt;
+  }
+  for (const int sign : {1, -1}) {
+    const auto beyond = [&](double theta) { return sign * path.Value(theta) - most; };
+    const double at_end = beyond(1);
+    if (at_end <= 0 && sign * path.end.slope > 0) continue;
+    auto theta = FirstPositive(beyond, at_end);
+    if (!theta) {
+      const auto peak = FirstFall(path, sign);
+      if (peak && beyond(*peak) > kGraze * most) theta = Root(beyond, 0, *peak);
+    }
+    if (theta) return ContactEvent{EventKind::kSlip, *theta};
+  }
+  return std::nullopt;
 }
 
 }  // namespace contact

@@ -24,6 +24,8 @@ enum class EventKind {
   kSeparation,     ///< Restitution, δ falls through 0.
   kRelease,        ///< A contact that rested falls apart: a restitution without compression begins.
   kNonSeparation,  ///< Restitution, δ̇ rises through 0 with δ > 0.
+  kSlip,           ///< Of a support: its force reaches the largest.
+  kStick,          ///< Of a support that slips: its motion turns.
 };
 
 /// The end of a contact's phase inside a step.
@@ -75,5 +77,9 @@ class DeformationPath {
 /// drift up to `noise` [m] touches at rest: nothing below that can be told from round-off.
 std::optional<ContactEvent> FirstEvent(Phase phase, const DeformationPath& path, double from = 0,
                                        double noise = 0);
+
+/// The first event of a support whose stretch is this path, if any. It slips beyond ±`most` [m];
+/// `side`: whether it does so, as in Slip.
+std::optional<ContactEvent> FirstSlip(const DeformationPath& path, double most, int side);
 
 }  // namespace contact

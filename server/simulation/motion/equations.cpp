@@ -22,6 +22,7 @@ ActiveContact::Force ActiveContact::General(double deformation, double rate) con
 Equations::Equations(const Scenario& scenario)
     : StateLayout(static_cast<int>(scenario.bodies.size()),
                   static_cast<int>(scenario.contacts.size())),
+      slips(scenario.supports.size()),
       scenario_(scenario),
       loads_(scenario.loads),
       drives_(scenario.drives) {
@@ -33,8 +34,9 @@ Equations::Equations(const Scenario& scenario)
   Rebase(positions);
   support_rates_.resize(positions.size());
   for (const Support& s : scenario.supports) {
-    support_rates_[At(s.body)] += s.stiffness * inverse_mass_[At(s.body)];
-    if (s.other != kNone) support_rates_[At(s.other)] += s.stiffness * inverse_mass_[At(s.other)];
+    const double stiffness = StiffnessOf(scenario, s);
+    support_rates_[At(s.body)] += stiffness * inverse_mass_[At(s.body)];
+    if (s.other != kNone) support_rates_[At(s.other)] += stiffness * inverse_mass_[At(s.other)];
   }
   for (const Contact& c : scenario.contacts) sides_.push_back(SidesOf(c.left, c.right));
   const auto mark = [this](const auto& pieces) {
@@ -119,9 +121,12 @@ void Equations::Rebase(const std::vector<double>& positions) {
   }
 }
 
-double Equations::SupportForce(std::size_t support, const double* u, const double* v) const {
+[[gnu::always_inline]] inline double Equations::SupportForce(std::size_t support, const double* u,
+                                                             const double* v) const {
   const Support& s = scenario_.supports[support];
-  return -s.stiffness * Stretch(support, u) - s.damping * Relative(s, v);  // (M4)
+  const double stretch = Stretch(support, u);
+  const double spring = s.IsLinear() ? s.stiffness * stretch : SpringOf(support, stretch).force;
+  return -spring - s.damping * Relative(s, v);  // (M4)
 }
 
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
@@ -283,6 +288,7 @@ void Equations::AddRecord(double t, const double* y, double* dy, double pace) co
     const Support& s = scenario_.supports[i];
     const double rate = Relative(s, v);
     dy[support_loss()] += pace * s.damping * rate * rate;
+    if (slips[i].side != 0) dy[support_loss()] += pace * s.slip_force * slips[i].side * rate;
     dy[impulse()] += pace * SupportForce(i, y, v) * (free(s.body) - free(s.other));
   }
 }
@@ -310,8 +316,7 @@ double Equations::Energy(const double* y) const {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
   for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
-    const double x = Stretch(i, y);
-    energy += 0.5 * scenario_.supports[i].stiffness * x * x;
+    energy += SpringOf(i, Stretch(i, y)).energy;
   }
   for (const ActiveContact& c : active) {
     energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);

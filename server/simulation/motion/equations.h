@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "simulation/laws/power.h"
+#include "simulation/laws/spring.h"
 #include "simulation/model/piece_rows.h"
 #include "simulation/model/scenario.h"
+#include "simulation/motion/state.h"
 #include "simulation/motion/state_layout.h"
 
 namespace contact {
@@ -122,7 +124,18 @@ class Equations : public StateLayout {
 
   /// By how much the support with this index is longer than without force [m].
   double Stretch(std::size_t support, const double* u) const {
-    return stretches_[support] + Relative(scenario_.supports[support], u);
+    return StretchAtBase(support) + Relative(scenario_.supports[support], u);
+  }
+  /// The same at displacements of 0 [m].
+  double StretchAtBase(std::size_t support) const {
+    return stretches_[support] - slips[support].slack;
+  }
+  /// The spring of the support with this index, at that length.
+  Spring SpringOf(std::size_t support, double stretch) const {
+    const Support& s = scenario_.supports[support];
+    const int side = slips[support].side;
+    if (side != 0) return Spring::Slipping(s.stiffness, side * s.slip_force);
+    return {s.stiffness, s.higher, stretch};
   }
   /// Two bodies, or a body and, as kNone, a wall.
   Sides SidesOf(int left, int right) const;
@@ -177,6 +190,8 @@ class Equations : public StateLayout {
 
   /// The contacts that exert a force, in order of Scenario::contacts.
   std::vector<ActiveContact> active;
+  /// In order of Scenario::supports.
+  std::vector<Slip> slips;
 
  private:
   /// Adds the supports to the accelerations.

@@ -64,7 +64,10 @@ void ExtrapolatedEuler::Linearize(const Vector& y0) {
     const ActiveContact::Force f = c.At(c.Relative(y0.data()) - c.gap, rate);
     laws_.push_back({f.by_deformation, f.by_rate});
   }
-  for (const Support& s : scenario_.supports) laws_.push_back({s.stiffness, s.damping});  // (M4)
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {  // (M4)
+    const double stretch = equations_.Stretch(i, y0.data());
+    laws_.push_back({equations_.SpringOf(i, stretch).slope, scenario_.supports[i].damping});
+  }
 }
 
 // The motion is kept apart from y0, so that its digits are not lost beside those of y0. Quadratures

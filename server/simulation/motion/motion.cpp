@@ -15,7 +15,12 @@ constexpr int kMaxEventsAtOnce = 1000;
 }  // namespace
 
 Motion::Motion(const Scenario& scenario)
-    : system_(scenario), stepper_(system_), events_(system_), cycles_(system_), forces_(system_) {}
+    : system_(scenario),
+      stepper_(system_),
+      events_(system_),
+      cycles_(system_),
+      slips_(system_),
+      forces_(system_) {}
 
 void Motion::Begin(const State& state, bool recording, double tolerance) {
   totals_.load_work = state.load_work;
@@ -33,6 +38,7 @@ State Motion::Save() const {
   state.time = system_.time;
   state.step = system_.next_step;
   state.contacts = system_.contacts;
+  state.slips = system_.equations.slips;
   state.positions = system_.equations.base();
   for (int i = 0; i < n; ++i) state.positions[At(i)] += system_.rk.y0[i];
   state.velocities.assign(system_.rk.y0.begin() + n, system_.rk.y0.begin() + n + n);
@@ -71,18 +77,19 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
     events_.Restart();
     if (!stepper_.Take(std::min(until, cycles_.NextWake()))) return Pause::kNumeric;
     StepEvents::Found found = PassTurns();
-    const bool moves = found.contact == kNone || found.event.theta > 0;
-    if (moves && found.contact != kNone && !stepper_.Land(found)) found.contact = kNone;
+    const bool moves = !found.any() || found.event.theta > 0;
+    if (moves && found.any() && !stepper_.Land(found)) found = {};
     if (moves && !system_.rk.y1.head(2 * system_.equations.bodies()).allFinite()) {
       return Pause::kNumeric;
     }
     bool breaks = false;
     if (moves) {
       breaks = Accept(listener);
-    } else if (stepper_.separating() != found.contact) {
+    } else if (found.contact == kNone || stepper_.separating() != found.contact) {
       system_.next_step = system_.step.h;  // The same again, but for what begins.
     }
     if (found.contact != kNone) cycles_.Apply(found, host);
+    if (found.support != kNone) slips_.Apply(found);
     const bool separates = found.event.kind == EventKind::kSeparation;
     if (found.contact != kNone && separates) stepper_.Separated();
     const bool changes = found.contact != kNone || system_.resting;
@@ -148,6 +155,11 @@ void Motion::FollowStep() {
   paths_.clear();
   for (const ActiveContact& active : system_.equations.active) {
     const auto [start, end] = system_.PathEnds(active.contact);
+    paths_.emplace_back(start, end);
+  }
+  for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
+    if (system_.scenario.supports[i].higher.empty()) continue;
+    const auto [start, end] = system_.StretchEnds(i);
     paths_.emplace_back(start, end);
   }
   double from = 0;

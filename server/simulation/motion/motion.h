@@ -9,6 +9,7 @@
 #include "simulation/motion/cycles.h"
 #include "simulation/motion/force_watch.h"
 #include "simulation/motion/moving_system.h"
+#include "simulation/motion/slips.h"
 #include "simulation/motion/state.h"
 #include "simulation/motion/step_events.h"
 #include "simulation/motion/stepper.h"
@@ -102,12 +103,13 @@ class Motion {
   Stepper stepper_;
   StepEvents events_;
   Cycles cycles_;
+  Slips slips_;
   ForceWatch forces_;
   // The balances at Begin; nothing else.
   State totals_;
   // The contacts that turn in the step, and when [s].
   std::vector<std::pair<int, double>> turns_;
-  // The deformations of the active contacts in the step.
+  // The deformations of the active contacts, and the stretches of bent springs, in the step.
   std::vector<DeformationPath> paths_;
   // y at a turn inside the step.
   Eigen::ArrayXd inside_;

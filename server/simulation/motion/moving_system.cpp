@@ -33,6 +33,7 @@ void MovingSystem::Begin(const State& state, bool is_recording, double own_toler
   time = state.time;
   next_step = state.step;
   contacts = state.contacts;
+  equations.slips = state.slips;
   contact_loss = state.contact_loss;
   touch_time = kNaN;
   momentum_scale = energy_scale = 0;
@@ -117,16 +118,15 @@ void MovingSystem::RefreshActive() {
   ++evaluations;
 }
 
-std::pair<DeformationPath::End, DeformationPath::End> MovingSystem::PathEnds(int contact) const {
+std::pair<DeformationPath::End, DeformationPath::End> MovingSystem::PathEnds(const Sides& sides,
+                                                                             double at_base) const {
   const int n = equations.bodies();
-  const Sides& sides = equations.sides(contact);
-  const double gap = contacts[At(contact)].gap;
   const double bend = 2 * step.h * (1 - step.warp);  // d²t/dθ²
   const auto end = [&](const auto& y, const auto& slope, double theta) {
     const double rate = sides.Relative(y.data() + n);
     const double acceleration = sides.Relative(slope.data() + n);
     const double dt = step.h * step.Rate(theta);
-    return DeformationPath::End{sides.Relative(y.data()) - gap, dt * rate,
+    return DeformationPath::End{sides.Relative(y.data()) + at_base, dt * rate,
                                 dt * dt * acceleration + bend * rate};
   };
   auto first = end(rk.y0, rk.slope0, 0), last = end(rk.y1, rk.slope1, 1);

@@ -32,7 +32,14 @@ struct MovingSystem {
   /// E of a contact in y [J]; 0 when not recording.
   double ExternalWork(int contact, const Eigen::ArrayXd& y) const;
   /// δ and its derivatives by θ at both ends of the step.
-  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(int contact) const;
+  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(int contact) const {
+    return PathEnds(equations.sides(contact), -contacts[static_cast<std::size_t>(contact)].gap);
+  }
+  /// The same of the stretch of a support.
+  std::pair<DeformationPath::End, DeformationPath::End> StretchEnds(std::size_t support) const {
+    const Support& s = scenario.supports[support];
+    return PathEnds(equations.SidesOf(s.body, s.other), equations.StretchAtBase(support));
+  }
 
   /// Takes the contacts in touch into the equations, and their slopes at this instant.
   void RefreshActive();
@@ -46,6 +53,10 @@ struct MovingSystem {
   void PrepareInterpolation();
   /// y at θ in the step, from the dense output of its method.
   void Interpolate(double theta, Eigen::ArrayXd* y) const;
+
+  /// Those of the distance of two sides that is `at_base` at displacements of 0.
+  std::pair<DeformationPath::End, DeformationPath::End> PathEnds(const Sides& sides,
+                                                                 double at_base) const;
 
   const Scenario& scenario;
   Equations equations;

@@ -47,6 +47,7 @@ State InitialState(const Scenario& scenario) {
     contact.cycle.contact = static_cast<int>(state.contacts.size());
     state.contacts.push_back(contact);
   }
+  state.slips.resize(scenario.supports.size());
   return state;
 }
 

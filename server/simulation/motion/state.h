@@ -75,6 +75,14 @@ struct ContactState {
   } member;
 };
 
+/// Where a support stands whose spring can slip.
+struct Slip {
+  /// How far its slack position has gone along [m].
+  double slack = 0;
+  /// 1: it slips while it grows longer, −1: while it grows shorter; 0: it does not slip.
+  int side = 0;
+};
+
 /// Whether its cycle runs; a resting contact has none.
 inline bool IsRunning(const ContactState& c) {
   return c.phase == Phase::kCompression || c.phase == Phase::kRestitution;
@@ -92,6 +100,8 @@ struct State {
   std::vector<double> velocities;
   /// In order of Scenario::contacts.
   std::vector<ContactState> contacts;
+  /// In order of Scenario::supports.
+  std::vector<Slip> slips;
   /// Work of the loads since t = 0 [J].
   double load_work = 0;
   /// Energy dissipated in supports since t = 0 [J].

@@ -82,9 +82,21 @@ StepEvents::Found StepEvents::First(int separating) const {
           kShort * system_.Deformation(separating, system_.rk.y0.data())) {
     first = {separating, {EventKind::kSeparation, 1}};
   }
+  FindSlips(&first);
   // Within round-off of the step's start is at its start.
-  if (first.contact != kNone && first.event.theta < 1e-13) first.event.theta = 0;
+  if (first.any() && first.event.theta < 1e-13) first.event.theta = 0;
   return first;
+}
+
+void StepEvents::FindSlips(Found* first) const {
+  for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
+    const Support& s = system_.scenario.supports[i];
+    if (std::isinf(s.slip_force)) continue;
+    const auto [start, end] = system_.StretchEnds(i);
+    const auto event = FirstSlip(DeformationPath(start, end), s.slip_force / s.stiffness,
+                                 system_.equations.slips[i].side);
+    if (event && event->theta < first->event.theta) *first = {kNone, *event, static_cast<int>(i)};
+  }
 }
 
 }  // namespace contact

@@ -10,10 +10,13 @@ namespace contact {
 /// Finds what happens to the contacts in the step, one event after the other.
 class StepEvents {
  public:
-  /// An event, and whose it is; kNone: there is none.
+  /// An event, and whose it is: a contact's or a support's. Both kNone: there is none.
   struct Found {
     int contact = kNone;
-    ContactEvent event;
+    ContactEvent event = {};
+    int support = kNone;
+
+    bool any() const { return contact != kNone || support != kNone; }
   };
 
   /// The system must outlive this.
@@ -32,6 +35,8 @@ class StepEvents {
   double Noise(int contact) const;
   /// How far a contact would close in the step at the δ̇ with which the step begins [m].
   double Drift(int contact) const;
+  /// Takes the first event of a support if it comes before `first`.
+  void FindSlips(Found* first) const;
 
   const MovingSystem& system_;
   // θ up to which each contact's events in the step are dealt with.

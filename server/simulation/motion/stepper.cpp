@@ -81,8 +81,10 @@ void Stepper::Begin() {
   for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
     const Support& s = system_.scenario.supports[i];
     const Sides sides = system_.equations.SidesOf(s.body, s.other);
-    const double rate = std::sqrt(s.stiffness * (sides.left_inverse + sides.right_inverse));
-    const double length = digits * std::abs(system_.equations.Stretch(i, system_.rk.y0.data()));
+    const double stretch = system_.equations.Stretch(i, system_.rk.y0.data());
+    const double stiffness = std::abs(system_.equations.SpringOf(i, stretch).slope);
+    const double rate = std::sqrt(stiffness * (sides.left_inverse + sides.right_inverse));
+    const double length = digits * std::abs(stretch);
     flight_length_ = std::max(flight_length_, length);
     flight_speed_ = std::max(flight_speed_, length * rate);
   }
@@ -356,11 +358,11 @@ bool Stepper::Land(const StepEvents::Found& found) {
   const StepTime planned = system_.step;
   const double left = std::min(until_, system_.breakpoint) - system_.time;
   // What the trapezoidal rule leaves is of third order in time.
-  const bool shifts = shifts_ && !system_.implicit;
+  const bool shifts = shifts_ && !system_.implicit && found.support == kNone;
   const double nearby =
       shifts ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
   const double event = system_.step.Offset(found.event.theta);
-  if (separating_ == found.contact && system_.step.h - event <= nearby) {
+  if (found.support == kNone && separating_ == found.contact && system_.step.h - event <= nearby) {
     if (found.event.theta < 1) Shift(event - system_.step.h, false);
   } else if (found.event.theta < 1) {
     Compute(event, parting);
@@ -418,9 +420,10 @@ void Stepper::Compute(double h, bool parting) {
   system_.FinishStep();
 }
 
-// What is 0 at the event, δ or δ̇, at the end of the step, and its slope.
+// At the end of the step.
 Stepper::Residual Stepper::ResidualOf(const StepEvents::Found& found) const {
   const int n = system_.equations.bodies();
+  if (found.support != kNone) return SlipResidual(found);
   const double rate = system_.equations.Relative(found.contact, system_.rk.y1.data() + n);
   switch (found.event.kind) {
     case EventKind::kRestTouch:
@@ -430,6 +433,19 @@ Stepper::Residual Stepper::ResidualOf(const StepEvents::Found& found) const {
     default:
       return {system_.Deformation(found.contact, system_.rk.y1.data()), rate};
   }
+}
+
+Stepper::Residual Stepper::SlipResidual(const StepEvents::Found& found) const {
+  const Support& support = system_.scenario.supports[At(found.support)];
+  const Sides sides = system_.equations.SidesOf(support.body, support.other);
+  const double* y = system_.rk.y1.data();
+  const int n = system_.equations.bodies();
+  const double rate = sides.Relative(y + n);
+  if (found.event.kind == EventKind::kStick) {
+    return {rate, sides.Relative(system_.rk.slope1.data() + n)};
+  }
+  const double stretch = system_.equations.Stretch(At(found.support), y);
+  return {stretch - std::copysign(support.slip_force / support.stiffness, stretch), rate};
 }
 
 }  // namespace contact

@@ -65,12 +65,14 @@ class Stepper {
   void Adapt(double growth, bool repeated);
   /// Sets the length of the next step, and its method: that of an implicit step may end its use.
   void GoOn(double h);
-  /// What is 0 at an event, δ [m] or δ̇ [m/s], and its slope.
+  /// What is 0 at an event, a length [m] or a speed [m/s], and its slope.
   struct Residual {
     double value, slope;
   };
   /// That of an event, at the end of the step.
   Residual ResidualOf(const StepEvents::Found& found) const;
+  /// That of an event of a support.
+  Residual SlipResidual(const StepEvents::Found& found) const;
   /// Moves the end of the step by a short time [s].
   void Shift(double time, bool tangent);
   /// Computes the step of h [s] and its end; `parting`: it ends in a separation.

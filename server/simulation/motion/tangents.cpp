@@ -32,10 +32,12 @@ void Tangents::Clear() {
   u_.resize(0, equations_.bodies());
   v_.resize(0, equations_.bodies());
   work_.resize(0, equations_.contacts());
+  slack_.resize(0, std::ssize(scenario_.supports));
+  slipped_ = false;
 }
 
 void Tangents::Add() {
-  for (Eigen::ArrayXXd* all : {&u_, &v_, &work_}) {
+  for (Eigen::ArrayXXd* all : {&u_, &v_, &work_, &slack_}) {
     all->conservativeResize(all->rows() + 1, Eigen::NoChange);
     all->bottomRows(1).setZero();
   }
@@ -72,14 +74,19 @@ void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>
     std::vector<Law>& laws = stages_.laws[j];
     stages_.pace[j] = pace;
     laws.clear();
-    for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::size_t contacts = equations_.active.size();
+    for (std::size_t i = 0; i < contacts; ++i) {
       const double rate = paths[i].Slope(theta) / slow;
       const ActiveContact::Force f = equations_.active[i].At(paths[i].Value(theta), rate);
       laws.push_back(
           {pace * f.force, pace * f.by_deformation, pace * f.by_rate, pace * f.damping, rate});
     }
-    for (const Support& s : scenario_.supports) {  // (M4)
-      laws.push_back({.by_deformation = pace * s.stiffness, .by_rate = pace * s.damping});
+    auto stretch = paths.begin() + static_cast<std::ptrdiff_t>(contacts);
+    for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {  // (M4)
+      const Support& s = scenario_.supports[i];
+      const double length = s.higher.empty() ? 0 : (stretch++)->Value(theta);
+      const double slope = equations_.SpringOf(i, length).slope;
+      laws.push_back({.by_deformation = pace * slope, .by_rate = pace * s.damping});
     }
   }
 }
@@ -187,6 +194,19 @@ void Tangents::Move(Count count) {
   }
 }
 
+void Tangents::AddSlacks() {
+  const std::size_t contacts = equations_.active.size();
+  for (std::ptrdiff_t support = 0; support < slack_.cols(); ++support) {
+    const std::size_t l = contacts + static_cast<std::size_t>(support);
+    const Link& link = linked_.links()[l];
+    for (std::ptrdiff_t j = 0; j < 2; ++j) {
+      const double slope = stages_.laws[j][l].by_deformation;
+      sides_.col(2 * link.left + j) += link.left_inverse * slope * slack_.col(support);
+      sides_.col(2 * link.right + j) -= link.right_inverse * slope * slack_.col(support);
+    }
+  }
+}
+
 // (S2): W' = F δ̇ differentiated by each μ.
 template <class Count>
 void Tangents::AddWorks(Count count) {
@@ -225,6 +245,7 @@ void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& 
     Assemble();
     WithCount<1, 2, 3, 4>(count(), [&](auto n) {
       AddForces(n);
+      if (slipped_) AddSlacks();
       system_.Solve(n, sides_.data());
       Move(n);
       AddWorks(n);
@@ -235,6 +256,13 @@ void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& 
     if (linked_.place(body) == kNone) u_.col(body) += time * v_.col(body);
   }
   Scatter();
+}
+
+// A change of the instant changes nothing, for the rate is 0 then.
+void Tangents::Stick(std::size_t support, const Sides& sides) {
+  slack_.col(static_cast<Eigen::Index>(support)) =
+      sides.left_counts * u_.col(sides.left) - sides.right_counts * u_.col(sides.right);
+  slipped_ = slipped_ || count() > 0;
 }
 
 // A change of the instant, −δ_μ/δ̇, changes the velocities after it.

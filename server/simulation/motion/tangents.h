@@ -43,7 +43,7 @@ class Tangents {
   void Prepare() { linked_.Count(); }
 
   /// Follows a step of the motion from θ = `from` to `to`. `paths` are the deformations of the
-  /// active contacts, in their order.
+  /// active contacts and the stretches of the supports that are not linear, in their order.
   void Follow(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
               double to);
   /// The work of a contact is counted from this instant on.
@@ -51,6 +51,8 @@ class Tangents {
   /// Changes the velocities where the force of a contact begins or ends with a jump, (S3), by
   /// `growth`, the force that begins, over δ̇ [N·s/m].
   void Jump(const Sides& sides, double growth);
+  /// A spring that has slipped sticks: its slack position has gone along so far.
+  void Stick(std::size_t support, const Sides& sides);
   /// ∂W/∂μ of a contact, for each μ, (S2).
   Eigen::ArrayXd Work(int contact) const { return work_.col(contact); }
 
@@ -77,6 +79,8 @@ class Tangents {
   /// The forces of the stages if nothing were accelerated, as the right sides of that system.
   template <class Count>
   void AddForces(Count count);
+  /// Adds what the slack positions of supports do to them.
+  void AddSlacks();
   /// ∂u/∂μ and ∂v/∂μ of the linked bodies at the stages, by the accelerations.
   template <class Count>
   void Move(Count count);
@@ -89,8 +93,11 @@ class Tangents {
 
   const Scenario& scenario_;
   const Equations& equations_;
-  // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact.
-  Eigen::ArrayXXd u_, v_, work_;
+  // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact; of
+  // slack positions: a column for each support.
+  Eigen::ArrayXXd u_, v_, work_, slack_;
+  // Whether one of slack_ is not 0.
+  bool slipped_ = false;
   LinkedBodies linked_;
   const Method* method_ = nullptr;
   Stages stages_;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "simulation/laws/power.h"
+#include "simulation/laws/spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -94,7 +95,8 @@ class Balance {
       const int body = Row(support.body), other = Row(support.other);
       const double stretch = Position(support.body) - Position(support.other) -
                              support.rest_position + Of(u, body) - Of(u, other);
-      Push(body, other, -support.stiffness * stretch, support.stiffness);
+      const Spring spring(support.stiffness, support.higher, stretch);
+      Push(body, other, -spring.force, std::abs(spring.slope));
     }
     slope.resize(size(), size());
     slope.setFromTriplets(entries_.begin(), entries_.end());
@@ -126,9 +128,11 @@ class Balance {
     return bodies;
   }
 
-  Vector force;                       // On each body [N].
-  Vector parts;                       // Sum of the sizes of its parts [N].
-  Eigen::SparseMatrix<double> slope;  // −∂force/∂u [N/m].
+  Vector force;  // On each body [N].
+  Vector parts;  // Sum of the sizes of its parts [N].
+  // −∂force/∂u [N/m]; where a spring gives way, with the size of its slope, for Newton's steps to
+  // go downhill there, too.
+  Eigen::SparseMatrix<double> slope;
 
  private:
   bool HasVelocity(int body) const {
@@ -180,7 +184,7 @@ class Newton {
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  // Of a convex potential a step helps that goes downhill. False: there is none.
+  // A step helps that goes downhill in the potential. False: there is none.
   bool Step(double softness, Vector& u) {
     const double largest = balance_.slope.diagonal().maxCoeff();
     factors_.factorize(balance_.slope + (largest > 0 ? kLeastSlope * largest : 1) * one_);

@@ -19,8 +19,10 @@ struct Equilibrium {
 ///   k_c δ_cⁿ, −k_e (x − x_other − rest) and F(0) sum to 0 on each body.
 /// They are the least of the potential energy Σ k δⁿ⁺¹/(n+1) + Σ ½ k_e (…)² − Σ F x, which is
 /// convex: there are none, one, or some between which bodies can be moved without a force. Of these
-/// those near the given positions are taken. Fixed bodies stay where they are, and so do bodies
-/// that have a velocity, whose contacts press nothing.
+/// those near the given positions are taken. With springs whose force falls somewhere there may be
+/// others: one that lies downhill from the given positions is taken, or these where they are one,
+/// stable or not. Fixed bodies stay where they are, and so do bodies that have a velocity, whose
+/// contacts press nothing.
 Equilibrium FindEquilibrium(const Scenario& scenario);
 
 /// The bodies that could stand elsewhere, too, where the scenario stands at equilibrium: no chain

@@ -10,7 +10,7 @@
 namespace contact {
 
 // The numbers of DampingLaw are those of the contract, and each of these has a row.
-static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 2);  // FORCE_TABLE comes.
+static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 1);
 static_assert(v1::Contact::ENERGY_RESTITUTION == static_cast<int>(DampingLaw::kEnergyRestitution));
 static_assert(v1::Contact::MU == static_cast<int>(DampingLaw::kGiven));
 static_assert(v1::Contact::DASHPOT == static_cast<int>(DampingLaw::kDashpot));

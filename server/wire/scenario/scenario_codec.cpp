@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
+#include "simulation/model/derived.h"
 #include "wire/rules/rules.h"
 #include "wire/scenario/body_codec.h"
 #include "wire/scenario/contact_codec.h"
@@ -35,6 +37,46 @@ void AddWalls(DecodedContacts decoded, Scenario* scenario) {
   std::ranges::move(decoded.drives, std::back_inserter(scenario->drives));
 }
 
+// k₂, k₃, … of a support.
+std::vector<double> DecodeHigher(const v1::Support& support, const Rules& rules) {
+  constexpr int kField = v1::Support::kHigherStiffnessFieldNumber;
+  static const Range range = RangeOf(*v1::Support::descriptor()->FindFieldByNumber(kField));
+  const int count = support.higher_stiffness_size();
+  const int most = RuleOf<v1::Support>(kField).max_entries();
+  if (!rules.RequireAtMost("higher_stiffness", count, most)) return {};
+  for (int i = 0; i < count; ++i) {
+    const double stiffness = support.higher_stiffness(i);
+    if (range.Contains(stiffness)) continue;  // Composes no path.
+    rules.Require(fmt::format("higher_stiffness[{}]", i), stiffness, range);
+  }
+  return {support.higher_stiffness().begin(), support.higher_stiffness().end()};
+}
+
+// The largest force of the spring.
+double DecodeSlip(const v1::Support& support, const Rules& rules) {
+  if (!support.has_slip_force_n()) return std::numeric_limits<double>::infinity();
+  if (support.higher_stiffness_size() > 0) {
+    rules.Break("slip_force_n", "is given beside higher_stiffness", "only a linear spring slips");
+  } else if (support.stiffness_n_per_m() == 0) {
+    rules.Break("slip_force_n", "is given, but stiffness_n_per_m is 0",
+                "give the stiffness up to that force, or remove it");
+  }
+  return rules.Read(support, v1::Support::kSlipForceNFieldNumber);
+}
+
+// No spring has slipped before t = 0.
+void CheckSlips(const Scenario& scenario, std::vector<Violation>* violations) {
+  for (std::size_t i = 0; i < scenario.supports.size(); ++i) {
+    const Support& s = scenario.supports[i];
+    const double force = s.stiffness * std::abs(InitialStretch(scenario, s));
+    if (force <= s.slip_force) continue;
+    Rules(violations, "supports", static_cast<int>(i))
+        .Break("slip_force_n",
+               fmt::format("is {}, but the spring begins with {} N", s.slip_force, force),
+               "give it a rest_position_m with which it begins with less, or a larger force");
+  }
+}
+
 std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames& names,
                                     std::vector<Violation>* violations) {
   std::vector<Support> supports;
@@ -52,7 +94,9 @@ std::vector<Support> DecodeSupports(const v1::Scenario& message, const BodyNames
                         .other = other,
                         .stiffness = rules.Read(support, Field::kStiffnessNPerMFieldNumber),
                         .damping = rules.Read(support, Field::kDampingNSPerMFieldNumber),
-                        .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber)});
+                        .rest_position = rules.Read(support, Field::kRestPositionMFieldNumber),
+                        .higher = DecodeHigher(support, rules),
+                        .slip_force = DecodeSlip(support, rules)});
   }
   return supports;
 }
@@ -189,6 +233,7 @@ DecodedScenario DecodeScenario(const v1::Scenario& message, const ScenarioLimits
   DecodeOutput(message, limits, Rules(violations, "output"), &scenario);
   scenario.end_time = rules.Read(message, v1::Scenario::kEndTimeSFieldNumber);
   DecodeStart(message, rules, &scenario);
+  if (violations->empty()) CheckSlips(scenario, violations);
   return decoded;
 }
 

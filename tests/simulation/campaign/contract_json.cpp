@@ -72,6 +72,8 @@ Json JsonOf(const Scenario& s, const Support& p) {
   Json json = {{"body", name(p.body)}, {"stiffness_n_per_m", p.stiffness}};
   if (p.other != kNone) json["other"] = name(p.other);
   json.update({{"damping_n_s_per_m", p.damping}, {"rest_position_m", p.rest_position}});
+  if (!p.higher.empty()) json["higher_stiffness"] = p.higher;
+  if (!std::isinf(p.slip_force)) json["slip_force_n"] = p.slip_force;
   return json;
 }
 

@@ -97,8 +97,11 @@ void PlainMotion::Slopes(const Vector& y, Vector& dy, double t) const {
   }
   for (std::size_t i = 0; i < s_.supports.size(); ++i) {
     const Support& p = s_.supports[i];
-    const double force = p.stiffness * (stretches_[i] + Difference(p.body, p.other, y, 0)) +
-                         p.damping * Difference(p.body, p.other, y, bodies_);
+    const double d = stretches_[i] + Difference(p.body, p.other, y, 0);
+    double force = p.stiffness * d + p.damping * Difference(p.body, p.other, y, bodies_);
+    for (std::size_t j = 0; j < p.higher.size(); ++j) {
+      force += p.higher[j] * std::pow(d, static_cast<int>(j) + 2);
+    }
     push(p.body, -force);
     push(p.other, force);
   }
@@ -136,7 +139,15 @@ void PlainMotion::Jacobian(Eigen::MatrixXd& j, Eigen::VectorXd& by_time) const {
     const double w = d.angular_frequency, phase = w * (time_ - d.begin) + d.phase;
     by_time[n + d.body] += d.jerk - d.amplitude * w * w * w * std::cos(phase);
   }
-  for (const Support& p : s_.supports) Couple(p.body, p.other, {0, p.stiffness, p.damping}, j);
+  for (std::size_t i = 0; i < s_.supports.size(); ++i) {
+    const Support& p = s_.supports[i];
+    const double d = stretches_[i] + Difference(p.body, p.other, state_, 0);
+    double slope = p.stiffness;
+    for (std::size_t k = 0; k < p.higher.size(); ++k) {
+      slope += static_cast<double>(k + 2) * p.higher[k] * std::pow(d, static_cast<int>(k) + 1);
+    }
+    Couple(p.body, p.other, {0, slope, p.damping}, j);
+  }
   for (std::size_t i = 0; i < mu_.size(); ++i) {
     if (std::isnan(mu_[i])) continue;
     const Contact& c = s_.contacts[i];

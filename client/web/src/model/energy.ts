@@ -32,12 +32,21 @@ function elastic({contacts}: Mechanics, series: Series, into: Float64Array): voi
   }
 }
 
+/** ∫ k₁ d + k₂ d² + … dd. */
+function springEnergy(stiffnesses: number[], stretch: number): number {
+  return stretch ** 2 * stiffnesses.reduceRight((sum, k, i) => sum * stretch + k / (i + 2), 0);
+}
+
 function supports({scenario}: Mechanics, series: Series, into: Float64Array): void {
-  for (const {body, other, stiffnessNPerM, restPositionM} of scenario.supports) {
+  for (const {body, other, stiffnessNPerM, higherStiffness, restPositionM, slipForceN} of scenario.supports) {
+    const most = slipForceN === undefined ? Infinity : slipForceN / stiffnessNPerM;
+    let slack = 0;  // The slack position of a spring that slips goes along, as samples tell.
     const end = column(series, `${body}.position`);
     const start = other ? column(series, `${other}.position`) : undefined;
     for (let i = 0; i < into.length; ++i) {
-      into[i]! += 0.5 * stiffnessNPerM * (end[i]! - (start?.[i] ?? 0) - restPositionM) ** 2;
+      const stretch = end[i]! - (start?.[i] ?? 0) - restPositionM;
+      slack = Math.min(Math.max(slack, stretch - most), stretch + most);
+      into[i]! += springEnergy([stiffnessNPerM, ...higherStiffness], stretch - slack);
     }
   }
 }
