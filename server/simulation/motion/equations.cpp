@@ -301,20 +301,32 @@ void Equations::AddDriveWork(const double* y, double* dy, double pace) const {
   }
 }
 
-double Equations::Energy(const double* y) const {
+double Equations::SupportEnergy(std::size_t support, const double* u) const {
+  const double x = Stretch(support, u);
+  return 0.5 * scenario_.supports[support].stiffness * x * x;
+}
+
+double Equations::KineticEnergy(const double* y) const {
   const int n = bodies();
   double energy = 0;
   for (int i = 0; i < n; ++i) {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
-  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
-    const double x = Stretch(i, y);
-    energy += 0.5 * scenario_.supports[i].stiffness * x * x;
-  }
+  return energy;
+}
+
+double Equations::ContactEnergy(const double* y) const {
+  double energy = 0;
   for (const ActiveContact& c : active) {
     energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
   }
   return energy;
+}
+
+double Equations::Energy(const double* y) const {
+  double energy = KineticEnergy(y);
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) energy += SupportEnergy(i, y);
+  return energy + ContactEnergy(y);
 }
 
 double Equations::Momentum(const double* y) const {
