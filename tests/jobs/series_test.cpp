@@ -65,7 +65,7 @@ TEST_F(SeriesTest, RawEqualsTheLog) {
   EXPECT_EQ(series.name(), name);
   EXPECT_EQ(series.samples(), 801);
   EXPECT_EQ(series.recorded_samples(), 801);
-  EXPECT_EQ(series.columns_size(), 7);
+  EXPECT_EQ(series.columns_size(), 7 + 1 + 5);
   EXPECT_EQ(series.columns(0).name(), "time");
   for (const auto& column : series.columns()) {
     EXPECT_EQ(Values(column), Logged(name, column.name())) << column.name();
@@ -237,6 +237,30 @@ TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
     request.set_end_time_s(end);
     EXPECT_EQ(Series(request).value().samples(), start <= 2 && end >= 2 ? 2 : 0) << start;
   }
+}
+
+// Its chunks have the first columns of today's.
+TEST_F(SeriesTest, OfAJobOfAnOlderServerThereIsWhatItRecordedAndNoMore) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    observer.OnSamples({0, 7, std::vector<double>(14, 2)});
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string name = Create(BouncingBall(2));
+  Ended(name);
+  const v1::Series all = Series(Ask(name)).value();
+  EXPECT_EQ(all.samples(), 2);
+  ASSERT_EQ(all.columns_size(), 7);
+  EXPECT_EQ(all.columns(6).name(), "ball-wall.external_force");
+  EXPECT_EQ(Series(Raw(name)).value().columns_size(), 7);
+  EXPECT_THAT(Names(Series(Ask(name, {"ball.velocity"})).value()),
+              ElementsAre("time", "ball.velocity"));
+  const auto refused = Series(Ask(name, {"ball.velocity", "ball.acceleration"}));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().reason, "FIELD_INVALID");
+  ASSERT_EQ(refused.error().violations.size(), 1U);
+  EXPECT_EQ(refused.error().violations[0].description, "'ball.acceleration' is not recorded");
 }
 
 TEST_F(SeriesTest, UnknownChannelsAreAllNamedWithWhatThereIs) {

@@ -405,7 +405,9 @@ TEST(SweepMetrics, OfChannelsThatAreNotThereAreRefusedWithTheNearest) {
   v1::Sweep sweep = Grid();
   sweep.add_metrics("series[B1.velocty].max");
   sweep.add_metrics("series[B1.velocity].max");
-  EXPECT_THAT(Mistakes(sweep), ElementsAre("metrics[1]: the base has no channel 'B1.velocty'"));
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("metrics[1]: the base has no channel 'B1.velocty' — did you "
+                          "mean 'B1.velocity'?"));
   sweep.mutable_base()->mutable_output()->set_ledger_only(true);
   sweep.set_metrics(1, "summary.steps");
   EXPECT_THAT(Mistakes(sweep),
