@@ -157,7 +157,9 @@ TEST(Clusters, SamplesAreThoseOfAllTogether) {
       const bool is_force = column >= forces && column < rest && (column - forces) % 4 >= 2;
       const bool is_acceleration = column >= rest && column < rest + std::ssize(s.bodies);
       ASSERT_NEAR(parts.Sample(row, column), whole.Sample(row, column),
-                  is_acceleration ? 1e-3 : is_force ? 1e-5 : 1e-8)
+                  is_acceleration ? 1e-3
+                  : is_force      ? 1e-5
+                                  : 1e-8)
           << row << " " << column;
     }
   }
