@@ -284,14 +284,14 @@ TEST_F(SeriesTest, ImpossibleRangesAndPointsAreRefused) {
   v1::GetSeriesRequest request = Ask(name);
   request.set_start_time_s(2);
   request.set_end_time_s(1);
-  request.set_max_points(13);  // 6 channels need 14.
+  request.set_max_points(25);  // 12 channels need 26.
   const auto refused = Series(request);
   ASSERT_FALSE(refused.ok());
   ASSERT_EQ(refused.error().violations.size(), 2U);
   EXPECT_EQ(refused.error().violations[0].field, "end_time_s");
   EXPECT_EQ(refused.error().violations[1].field, "max_points");
   request.clear_end_time_s();
-  request.set_max_points(14);
+  request.set_max_points(26);
   EXPECT_TRUE(Series(request).ok());
   request.set_start_time_s(std::nan(""));
   EXPECT_FALSE(Series(request).ok());
