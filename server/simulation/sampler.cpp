@@ -43,6 +43,17 @@ void Sampler::Append(double time, const Eigen::ArrayXd& y, std::vector<double>* 
     row->push_back(equations.base()[static_cast<std::size_t>(i)] + y[i]);
     row->push_back(y[n + i]);
   }
+  AppendContacts(y, row);
+  row->insert(row->end(), slope_.begin() + n, slope_.begin() + 2 * n);
+  const double supports = AppendSupports(y, row);
+  const Exchanged exchanged = motion_.ExchangedUntil(y);
+  row->insert(row->end(), {equations.KineticEnergy(y.data()), equations.ContactEnergy(y.data()),
+                           supports, exchanged.dissipated, exchanged.load_work});
+}
+
+void Sampler::AppendContacts(const Eigen::ArrayXd& y, std::vector<double>* row) const {
+  const Equations& equations = motion_.equations();
+  const int n = equations.bodies();
   auto active = equations.active.begin();  // In the order of the contacts, as this loop.
   for (int c = 0; c < equations.contacts(); ++c) {
     const double deformation = motion_.Deformation(c, y.data());
@@ -55,6 +66,18 @@ void Sampler::Append(double time, const Eigen::ArrayXd& y, std::vector<double>* 
         equations.effective_mass(c) * equations.Relative(c, slope_.data() + n) + force;
     row->insert(row->end(), {deformation, rate, force, external});
   }
+}
+
+double Sampler::AppendSupports(const Eigen::ArrayXd& y, std::vector<double>* row) const {
+  const Equations& equations = motion_.equations();
+  double sum = 0;
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
+    const double energy = equations.SupportEnergy(i, y.data());
+    row->push_back(equations.SupportForce(i, y.data(), y.data() + equations.bodies()));
+    row->push_back(energy);
+    sum += energy;
+  }
+  return sum;
 }
 
 void Sampler::HandOut(const Samples& samples) {

@@ -52,6 +52,10 @@ class Sampler final : public Recording {
  private:
   /// Appends the values of a sample of the state y to a row.
   void Append(double time, const Eigen::ArrayXd& y, std::vector<double>* row);
+  /// Appends those of the contacts, with the accelerations in slope_.
+  void AppendContacts(const Eigen::ArrayXd& y, std::vector<double>* row) const;
+  /// Appends those of the supports. The energy of all of them [J].
+  double AppendSupports(const Eigen::ArrayXd& y, std::vector<double>* row) const;
   /// Passes a chunk on, or keeps it.
   void HandOut(const Samples& samples);
 

@@ -61,7 +61,7 @@ v1::Estimate EstimateSweep(const v1::Sweep& sweep, const DecodedSweep& plan) {
   all.ledger_bytes = kSweepBytes + cells * (kCellBytes + kNumberBytes * numbers);
   all.memory_bytes = one.memory_bytes + (kept > 0 ? one.sample_memory : 0);
   if (one.solve_seconds) all.solve_seconds = cells * *one.solve_seconds;
-  all.sample_seconds = kept * one.sample_seconds;
+  all.sample_seconds = (plan.metrics.need_samples() ? cells : kept) * one.sample_seconds;
   return Encode(all);
 }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "wire/column_bytes.h"
+#include "wire/scenario/channels.h"
 
 namespace contact {
 namespace {
@@ -24,14 +23,6 @@ static_assert(WireUpdate(Iteration::Update::kZero) == v1::Iteration::ZERO);
 static_assert(WireUpdate(Iteration::Update::kPaperNewton) == v1::Iteration::PAPER_NEWTON);
 static_assert(WireUpdate(Iteration::Update::kPaperRatio) == v1::Iteration::PAPER_RATIO);
 static_assert(WireUpdate(Iteration::Update::kBracketing) == v1::Iteration::BRACKETING);
-
-v1::FrameChunk::Column Channel(std::string_view owner, const char* quantity, const char* unit) {
-  v1::FrameChunk::Column column;
-  column.set_name(owner.empty() ? quantity : std::string(owner) + "." + quantity);
-  column.set_quantity(quantity);
-  column.set_unit(unit);
-  return column;
-}
 
 // The number of cycles with this status.
 std::int64_t CountCycles(const v1::Job& job, v1::Cycle::Status status) {
@@ -66,26 +57,12 @@ v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples) {
   message.set_first_sample(samples.first);
   message.set_samples(samples.rows());
   std::vector<v1::FrameChunk::Column> columns = Channels(scenario);
+  columns.resize(static_cast<std::size_t>(samples.columns));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     columns[i].set_values(ColumnBytes(samples.values, columns.size(), i));
     *message.add_columns() = std::move(columns[i]);
   }
   return message;
-}
-
-std::vector<v1::FrameChunk::Column> Channels(const Scenario& scenario) {
-  std::vector<v1::FrameChunk::Column> columns = {Channel("", "time", "s")};
-  for (const Body& body : scenario.bodies) {
-    columns.push_back(Channel(body.name, "position", "m"));
-    columns.push_back(Channel(body.name, "velocity", "m/s"));
-  }
-  for (const Contact& contact : scenario.contacts) {
-    columns.push_back(Channel(contact.name, "deformation", "m"));
-    columns.push_back(Channel(contact.name, "deformation_velocity", "m/s"));
-    columns.push_back(Channel(contact.name, "contact_force", "N"));
-    columns.push_back(Channel(contact.name, "external_force", "N"));
-  }
-  return columns;
 }
 
 v1::Progress Encode(const Scenario& scenario, const Progress& progress) {

@@ -19,10 +19,6 @@ v1::FrameChunk Encode(const Scenario& scenario, const Samples& samples);
 /// The progress of a run; the counts of cells stay 0.
 v1::Progress Encode(const Scenario& scenario, const Progress& progress);
 
-/// The columns of the scenario's frame chunks, without values: `time`, then those of each body and
-/// of each contact.
-std::vector<v1::FrameChunk::Column> Channels(const Scenario& scenario);
-
 /// Fills convergence, final_bodies and summary of a job, except for summary.wall_time_s. The cycles
 /// that the job has are those that are counted.
 void EncodeOutcome(const Scenario& scenario, const Outcome& outcome, v1::Job* job);

@@ -65,7 +65,7 @@ TEST_F(SeriesTest, RawEqualsTheLog) {
   EXPECT_EQ(series.name(), name);
   EXPECT_EQ(series.samples(), 801);
   EXPECT_EQ(series.recorded_samples(), 801);
-  EXPECT_EQ(series.columns_size(), 7);
+  EXPECT_EQ(series.columns_size(), 7 + 1 + 5);
   EXPECT_EQ(series.columns(0).name(), "time");
   for (const auto& column : series.columns()) {
     EXPECT_EQ(Values(column), Logged(name, column.name())) << column.name();
@@ -239,6 +239,30 @@ TEST_F(SeriesTest, EarlierAttemptsAreLeftOut) {
   }
 }
 
+// Its chunks have the first columns of today's.
+TEST_F(SeriesTest, OfAJobOfAnOlderServerThereIsWhatItRecordedAndNoMore) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    observer.OnSamples({0, 7, std::vector<double>(14, 2)});
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string name = Create(BouncingBall(2));
+  Ended(name);
+  const v1::Series all = Series(Ask(name)).value();
+  EXPECT_EQ(all.samples(), 2);
+  ASSERT_EQ(all.columns_size(), 7);
+  EXPECT_EQ(all.columns(6).name(), "ball-wall.external_force");
+  EXPECT_EQ(Series(Raw(name)).value().columns_size(), 7);
+  EXPECT_THAT(Names(Series(Ask(name, {"ball.velocity"})).value()),
+              ElementsAre("time", "ball.velocity"));
+  const auto refused = Series(Ask(name, {"ball.velocity", "ball.acceleration"}));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().reason, "FIELD_INVALID");
+  ASSERT_EQ(refused.error().violations.size(), 1U);
+  EXPECT_EQ(refused.error().violations[0].description, "'ball.acceleration' is not recorded");
+}
+
 TEST_F(SeriesTest, UnknownChannelsAreAllNamedWithWhatThereIs) {
   Open();
   const std::string name = Create(BouncingBall(2));
@@ -260,14 +284,14 @@ TEST_F(SeriesTest, ImpossibleRangesAndPointsAreRefused) {
   v1::GetSeriesRequest request = Ask(name);
   request.set_start_time_s(2);
   request.set_end_time_s(1);
-  request.set_max_points(13);  // 6 channels need 14.
+  request.set_max_points(25);  // 12 channels need 26.
   const auto refused = Series(request);
   ASSERT_FALSE(refused.ok());
   ASSERT_EQ(refused.error().violations.size(), 2U);
   EXPECT_EQ(refused.error().violations[0].field, "end_time_s");
   EXPECT_EQ(refused.error().violations[1].field, "max_points");
   request.clear_end_time_s();
-  request.set_max_points(14);
+  request.set_max_points(26);
   EXPECT_TRUE(Series(request).ok());
   request.set_start_time_s(std::nan(""));
   EXPECT_FALSE(Series(request).ok());

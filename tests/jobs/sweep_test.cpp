@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <map>
@@ -112,6 +113,32 @@ TEST_F(SweepTest, CellEqualsAJobOfItsScenario) {
                                           job.final_bodies(0).velocity_m_per_s()));
   EXPECT_THAT(cell.sources(), testing::Each(v1::SweepCell::RESULT));
   EXPECT_EQ(cell.cycles(), job.cycles_size());
+}
+
+TEST_F(SweepTest, MetricsOfSamplesAreThoseOfTheTrajectoryWhichIsNotStored) {
+  Open();
+  v1::CreateJobRequest study = Study(3, 3);
+  v1::Sweep& sweep = *study.mutable_job()->mutable_sweep();
+  sweep.clear_metrics();
+  sweep.add_metrics("series[ball-wall.contact_force].max");
+  sweep.add_metrics("series[ball.velocity].last");
+  sweep.add_metrics("series[ball-wall.contact_force].time_of_max");
+  const std::string name = Create(study).value().name();
+  const auto cells = Cells(name);
+  const auto log = Log(name, 0, {"frame_chunk"});
+  EXPECT_TRUE(std::ranges::none_of(log, &v1::Event::has_frame_chunk));
+  v1::SweepCell cell;
+  cell.ParseFromString(cells.at(5));
+  v1::Scenario scenario = sweep.base();
+  scenario.mutable_bodies(0)->set_velocity_m_per_s(cell.values(0));
+  scenario.mutable_contacts(0)->set_restitution(cell.values(1));
+  const v1::Job job = Ended(Create(scenario));
+  ASSERT_EQ(cell.metrics_size(), 3);
+  EXPECT_EQ(cell.metrics(1), job.final_bodies(0).velocity_m_per_s());
+  EXPECT_LE(cell.metrics(0), job.cycles(0).peak_force_n());
+  EXPECT_GT(cell.metrics(0), 0.9 * job.cycles(0).peak_force_n());
+  EXPECT_GT(cell.metrics(2), job.cycles(0).start_time_s());
+  EXPECT_LT(cell.metrics(2), job.cycles(0).end_time_s());
 }
 
 TEST_F(SweepTest, CellTellsOfWhatTheEndCutsAndOfContactsThatItDoesNotTouch) {

@@ -23,6 +23,11 @@ PRINTED = json.loads((TESTS / "reference/words.json").read_text("utf-8"))
 
 class ReadableUnitTest(unittest.TestCase):
 
+    def test_accelerations_may_be_in_g(self):
+        unit = named_unit("acceleration [m/s^2]", "g")
+        self.assertEqual((unit.size, unit.label), (9.80665, "acceleration [g]"))
+        self.assertIsNone(named_unit("velocity [m/s]", "g"))
+
     def test_numbers_have_few_digits_as_in_the_dashboard(self):
         for label, largest, shown, size in PRINTED["units"]:
             unit = readable_unit(label, largest)

@@ -38,13 +38,25 @@ class ClientTest(ServerTest):
         self.assertEqual(list(result.groups.mu), list(result.cycles.mu))
         self.assertEqual(list(result.cycles.group), list(result.groups.number))
         self.assertEqual(result["time"][-1], 4e-3)
-        self.assertEqual(result.series.shape, (1001, 14))
+        self.assertEqual(result.series.shape, (1001, 22))
         self.assertEqual(result.series.columns[1], "B1.velocity [m/s]")
         self.assertEqual(result.series.index[-1], 4e-3)
         last = result.iterations[result.iterations.accepted]
         self.assertTrue((last.residual.abs() < 2e-8).all())
         spec = result.scenario.SerializeToString(deterministic=True)
         self.assertEqual(result.provenance["scenario_sha256"], hashlib.sha256(spec).hexdigest())
+
+    def test_a_load_takes_of_the_speed_what_newton_predicts(self):
+        ball = {"bodies": [{"name": "ball", "mass_kg": 0.5, "radius_m": 0.05, "position_m": -0.06,
+                            "velocity_m_per_s": 1}],
+                "contacts": [{"between": ["ball"], "wall": {"side": "RIGHT"}, "stiffness": 1e5,
+                              "restitution": 0.5}],
+                "loads": [{"body": "ball", "constant": {"force_n": 12}}],
+                "end_time_s": 0.08}
+        told = self.client.run(ball, timeout_s=PATIENCE_S).newton.iloc[0]
+        self.assertAlmostEqual(told.external_force_n, 12, delta=1e-6)
+        self.assertAlmostEqual(told.newton_restitution, told.predicted, delta=1e-8)
+        self.assertLess(told.newton_restitution, told.restitution_out - 0.01)
 
     def test_groups_of_several_cycles_are_rows_of_a_table(self):
         result = self.client.run(two_balls_and_a_wall(), timeout_s=PATIENCE_S)

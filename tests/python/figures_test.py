@@ -55,12 +55,38 @@ class PresetsTest(unittest.TestCase):
         for preset, column in (("position", ".position"), ("velocity", ".velocity"),
                                ("force", ".contact_force"), ("force", ".external_force"),
                                ("deformation-velocity", ".deformation_velocity"),
-                               ("hysteresis", ".deformation"), ("energy", ".velocity")):
+                               ("hysteresis", ".deformation")):
             with self.subTest(f"{preset} {column}"):
                 run = run_of(self.run_.job, columns_of(self.run_, column))
                 said = self.complaint(preset, run)
                 self.assertIn(column, said)
                 self.assertIn("output.ledger_only", said)
+
+    def test_a_column_that_an_older_server_did_not_record_is_told(self):
+        for preset, column in (("acceleration", ".acceleration"), ("supports", ".support_force"),
+                               ("energy", "_energy"), ("energy", ".load_work")):
+            with self.subTest(f"{preset} {column}"):
+                run = run_of(self.run_.job, columns_of(self.run_, column))
+                if preset == "supports":
+                    run = run_of(self.run_.job, columns_of(run, "_energy"))
+                said = self.complaint(preset, run)
+                self.assertIn("an older server made it, so run it again", said)
+        self.assertIn("output.ledger_only", self.complaint("energy", run_of(self.run_.job, {})))
+        del self.run_.job.scenario.supports[:]
+        self.assertEqual(self.complaint("supports", self.run_), "this run has no supports")
+
+    def test_energy_has_the_parts_that_are_not_0_and_their_balance(self):
+        panel = panel_of("energy", self.run_)
+        self.assertEqual([curve.label for curve in panel.curves],
+                         ["kinetic", "contacts", "supports", "dissipated", "load work",
+                          "sum less load work"])
+        np.testing.assert_allclose(panel.curves[-1].y, 8, rtol=1e-15)
+
+    def test_supports_have_a_panel_for_force_and_one_for_energy(self):
+        force, energy = preset_figure("supports", self.run_).panels
+        self.assertEqual((force.y_label, energy.y_label), ("force [N]", "energy [J]"))
+        self.assertEqual(named(force, "A-ground").y[-1], -20)
+        self.assertEqual(named(energy, "A-ground").y[-1], 20)
 
     def test_ledger_and_iterations_need_no_trajectory(self):
         run = run_of(self.run_.job, {}, self.run_.passes)

@@ -3,7 +3,7 @@ golden/: files are `contactctl export -o protobuf` and `contactctl plot -o csv` 
 
 import unittest
 
-from contactsim.figures import preset_figure
+from contactsim.figures import FigureError, preset_figure
 from contactsim.figures.figure import points_csv
 from sample_run import GOLDEN, stored_run
 
@@ -18,6 +18,12 @@ class GoldenTest(unittest.TestCase):
                 with self.subTest(f"{name} {preset}"):
                     drawn = points_csv(preset_figure(preset, run))
                     self.assertEqual(drawn, path.read_text("utf-8"))
+
+    def test_what_that_version_did_not_record_is_told(self):
+        run = stored_run("spring")
+        for preset in ("acceleration", "energy", "supports"):
+            with self.subTest(preset), self.assertRaisesRegex(FigureError, "an older server made it"):
+                preset_figure(preset, run)
 
 
 if __name__ == "__main__":

@@ -40,6 +40,13 @@ def sample_run():
         columns |= {f"{contact}.{quantity}": (quantity, unit, 100 * np.sin(time))
                     for quantity, unit in (("deformation", "m"), ("deformation_velocity", "m/s"),
                                            ("contact_force", "N"), ("external_force", "N"))}
+    columns |= {f"{body}.acceleration": ("acceleration", "m/s^2", 2 + time) for body in "AB"}
+    scenario.supports.add(body="A", stiffness_n_per_m=10)
+    columns |= {"A-ground.support_force": ("support_force", "N", -20 * time),
+                "A-ground.support_energy": ("support_energy", "J", 20 * time * time)}
+    columns |= {f"system.{name}": (name, "J", values) for name, values in (
+        ("kinetic_energy", 8 - 3 * time), ("contact_energy", time), ("support_energy", time),
+        ("dissipated_energy", 4 * time), ("load_work", 3 * time))}
     return run_of(job, columns, [
         event_pb2.Iteration(episode=1, number=number, accepted=number == 2, unknowns=[
             event_pb2.Iteration.Unknown(contact="A-B", number=1, mu=1e6 * (number + 1),

@@ -28,7 +28,9 @@ class UnitsTest(unittest.TestCase):
         for metric, unit in (("iterations", "1"), ("kinetic_energy_j", "J"),
                              ("cycles[B1-B2].last.peak_force_n", "N"), ("cycles.count", "1"),
                              ("final_bodies[B1].velocity_m_per_s", "m/s"), ("convergence", ""),
-                             ("cycles[0].mu", "N·s/m^(n+1)")):
+                             ("cycles[0].mu", "N·s/m^(n+1)"),
+                             ("series[B1.acceleration].max", "m/s²"),
+                             ("series[B1.acceleration].time_of_max", "s")):
             self.assertEqual(unit_of_metric(metric), unit, metric)
 
     def test_factors_are_those_of_prefixes_and_quotients(self):

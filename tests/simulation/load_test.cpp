@@ -146,6 +146,29 @@ TEST(Load, PulsesInsideCyclesKeepTheLedger) {
   EXPECT_LT(r.outcome.momentum_residual, 1e-9);
 }
 
+// e_N² = ε² − (1 − ε²) 2 P δ_m/(m v²), e_N the ratio of the speeds after and before: whatever ε,
+// and however soft the contact.
+TEST(Load, AConstantOneTakesOfTheSpeedWhatTheIdentitySays) {
+  for (const double restitution : {0.5, 0.9}) {
+    for (const double load : {0.5 * 9.81, 12.0, -20.0}) {
+      Scenario s = testing::Collision(0.5, 1, 1e5, 1.5, restitution);
+      s.loads = {{.body = 0, .constant = load}};
+      const Record r = RunAndRecord(s);
+      ASSERT_FALSE(r.cycles.empty());
+      const Cycle& cycle = r.cycles.front();
+      ASSERT_EQ(cycle.end, Cycle::End::kSeparation);
+      const double v = cycle.approach_velocity, newton = -cycle.separation_velocity / v;
+      const double mass = s.bodies[0].mass, e = cycle.restitution_out;
+      EXPECT_NEAR(newton * newton,
+                  e * e - (1 - e * e) * 2 * load * cycle.max_deformation / (mass * v * v), 1e-8)
+          << restitution << " " << load;
+      // So P is what the ledger tells: the work of F_e over the way.
+      EXPECT_NEAR(cycle.external_compression / cycle.max_deformation, load, 1e-8);
+      EXPECT_NEAR(cycle.external_restitution, -cycle.external_compression, 1e-10);
+    }
+  }
+}
+
 // Cutting a load in pieces changes nothing but round-off.
 TEST(Load, PiecesOfALoadAreTheLoad) {
   Scenario s = testing::SpringWall();

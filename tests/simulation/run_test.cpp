@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "simulation/model/derived.h"
 #include "testing/cases.h"
 
 namespace contact {
@@ -188,7 +189,7 @@ TEST(Run, SamplesLieOnTheTrajectoryToTheEnd) {
   s.sample_interval = 1e-5;
   const Record r = RunAndRecord(s);
   ASSERT_EQ(r.rows(), 3501);
-  EXPECT_EQ(r.columns, 1 + 2 + 4);
+  EXPECT_EQ(r.columns, SampleColumns(s));
   EXPECT_EQ(r.Sample(0, 1), -0.01);
   for (int i = 0; i < r.rows(); ++i) EXPECT_NEAR(r.Sample(i, 0), i * 1e-5, 1e-14);
   EXPECT_NEAR(r.Sample(3500, 1), r.outcome.positions[0], 1e-12);

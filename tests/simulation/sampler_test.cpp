@@ -77,14 +77,14 @@ TEST(Sampler, RowsLieOnTheTrajectoryAtEqualIntervals) {
   flight.FlyUntil(1);
   flight.sampler.Flush();
   const std::vector<double> values = flight.observer.Values();
-  ASSERT_EQ(values.size(), 3u * 1001);
+  ASSERT_EQ(values.size(), 9u * 1001);
   for (std::size_t i = 0; i <= 1000; ++i) {
     const double t = static_cast<double>(i) * 1e-3;
-    EXPECT_NEAR(values[3 * i], t, 1e-15);
-    EXPECT_NEAR(values[3 * i + 1], 1 + 3 * t, 1e-13);
-    EXPECT_NEAR(values[3 * i + 2], 3, 1e-13);
+    EXPECT_NEAR(values[9 * i], t, 1e-15);
+    EXPECT_NEAR(values[9 * i + 1], 1 + 3 * t, 1e-13);
+    EXPECT_NEAR(values[9 * i + 2], 3, 1e-13);
   }
-  EXPECT_EQ(values[3000], 1);  // The end itself, whatever 1000 times the interval is.
+  EXPECT_EQ(values[9000], 1);  // The end itself, whatever 1000 times the interval is.
 }
 
 TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {
@@ -96,14 +96,14 @@ TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {
   flight.sampler.Flush();  // Nothing is left.
   ASSERT_EQ(flight.observer.chunks.size(), 4u);
   EXPECT_EQ(ExpectNoHole(flight.observer.chunks), 1001);
-  for (const Samples& chunk : flight.observer.chunks) EXPECT_EQ(chunk.columns, 3);
+  for (const Samples& chunk : flight.observer.chunks) EXPECT_EQ(chunk.columns, 9);
 }
 
 TEST(Sampler, AnIntervalThatDoesNotDivideTheRunEndsBefore) {
   Flight flight(0.3);
   flight.FlyUntil(1);
   EXPECT_EQ(flight.sampler.Save().pending.rows(), 4);
-  EXPECT_NEAR(flight.sampler.Save().pending.values[9], 0.9, 1e-15);
+  EXPECT_NEAR(flight.sampler.Save().pending.values[27], 0.9, 1e-15);
 }
 
 TEST(Sampler, WithoutAnIntervalThereAreNoSamples) {
@@ -194,7 +194,7 @@ TEST(Sampler, ManyColumnsMakeShortChunksThatFitMessages) {
   EXPECT_EQ(ExpectNoHole(chunks.chunks), 1001);
   for (const Samples& chunk : chunks.chunks) {
     EXPECT_LE(chunk.values.size(), std::size_t{kValuesPerChunk});
-    EXPECT_GT(chunk.rows(), chunk.first < 1000 - 65 ? kValuesPerChunk / 2001 - 1 : 0);
+    EXPECT_GT(chunk.rows(), chunk.first < 1000 - 65 ? kValuesPerChunk / 3006 - 1 : 0);
   }
   EXPECT_EQ(RowsPerChunk(kValuesPerChunk + 1), 1);
 }

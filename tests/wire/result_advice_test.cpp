@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "simulation/model/derived.h"
 #include "wire/result_codec.h"
 #include "wire/scenario_builder.h"
 
@@ -22,7 +23,7 @@ Scenario Row() {
 
 v1::FrameChunk ChunkOf(const Scenario& scenario, std::vector<double> positions, double time) {
   Samples samples;
-  samples.columns = static_cast<int>(1 + 2 * scenario.bodies.size() + 4 * scenario.contacts.size());
+  samples.columns = SampleColumns(scenario);
   samples.values.assign(static_cast<std::size_t>(samples.columns), 0);
   samples.values[0] = time;
   for (std::size_t i = 0; i < positions.size(); ++i) samples.values[1 + 2 * i] = positions[i];

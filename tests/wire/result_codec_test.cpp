@@ -4,7 +4,9 @@
 
 #include <cstring>
 
+#include "simulation/model/derived.h"
 #include "two_contacts.h"
+#include "wire/scenario/channels.h"
 
 namespace contact {
 namespace {
@@ -48,9 +50,11 @@ TEST(Encode, IterationKeepsEveryField) {
 }
 
 TEST(Encode, SamplesBecomeColumnsInTheOrderOfTheContract) {
-  Samples samples{.first = 512, .columns = 1 + 2 * 2 + 4 * 2, .values = {}};
+  Scenario scenario = TwoContacts();
+  scenario.supports = {{.body = 0}, {.body = 1, .other = 0}, {.body = 0}};
+  Samples samples{.first = 512, .columns = SampleColumns(scenario), .values = {}};
   for (int i = 0; i < 2 * samples.columns; ++i) samples.values.push_back(i + 0.5);
-  const v1::FrameChunk chunk = Encode(TwoContacts(), samples);
+  const v1::FrameChunk chunk = Encode(scenario, samples);
 
   EXPECT_EQ(chunk.first_sample(), 512);
   EXPECT_EQ(chunk.samples(), 2);
@@ -70,7 +74,21 @@ TEST(Encode, SamplesBecomeColumnsInTheOrderOfTheContract) {
                                  "b-wall.deformation deformation m",                      //
                                  "b-wall.deformation_velocity deformation_velocity m/s",  //
                                  "b-wall.contact_force contact_force N",                  //
-                                 "b-wall.external_force external_force N"));
+                                 "b-wall.external_force external_force N",                //
+                                 "a.acceleration acceleration m/s^2",                     //
+                                 "b.acceleration acceleration m/s^2",                     //
+                                 "a-ground.support_force support_force N",                //
+                                 "a-ground.support_energy support_energy J",              //
+                                 "b-a.support_force support_force N",                     //
+                                 "b-a.support_energy support_energy J",                   //
+                                 "a-ground#2.support_force support_force N",              //
+                                 "a-ground#2.support_energy support_energy J",            //
+                                 "system.kinetic_energy kinetic_energy J",                //
+                                 "system.contact_energy contact_energy J",                //
+                                 "system.support_energy support_energy J",                //
+                                 "system.dissipated_energy dissipated_energy J",          //
+                                 "system.load_work load_work J"));
+  EXPECT_EQ(chunk.columns(static_cast<int>(FirstChannels(scenario))).name(), "a.acceleration");
 }
 
 TEST(Encode, ColumnsAreLittleEndianDoubles) {

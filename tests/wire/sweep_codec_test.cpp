@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "simulation/model/derived.h"
 #include "wire/sweep/axis_words.h"
 #include "wire/sweep/sweep_fields.h"
 
@@ -370,6 +371,56 @@ TEST(SweepMetrics, ReadNumbersOfAResult) {
   EXPECT_THAT(std::vector(values.begin(), values.end() - 1),
               ElementsAre(12, 1e-9, 2, 400, 4, 4, 20, 7, 3, 0.25));
   EXPECT_TRUE(std::isnan(values.back()));
+}
+
+TEST(SweepMetrics, OfSamplesAreTheirFirstLastAndExtremesWithTheirTimes) {
+  v1::Sweep sweep;
+  for (const auto* word : {"first", "last", "max", "min", "time_of_max", "time_of_min"}) {
+    sweep.add_metrics(std::string("series[B.velocity].") + word);
+  }
+  sweep.add_metrics("iterations");
+  std::vector<Violation> violations;
+  const SweepMetrics metrics(sweep, &violations);
+  ASSERT_TRUE(violations.empty());
+  Scenario scenario;
+  scenario.bodies = {{.name = "A"}, {.name = "B"}};
+  SeriesTally series = metrics.Tally(scenario);
+  const int columns = SampleColumns(scenario);
+  for (const auto& [time, velocity] : {std::pair{0.0, 2.0}, {0.5, -3.0}, {1.0, 5.0}, {1.5, 5.0}}) {
+    Samples samples{.columns = columns,
+                    .values = std::vector<double>(static_cast<std::size_t>(columns))};
+    samples.values[0] = time;
+    samples.values[4] = velocity;
+    series.See(samples);
+  }
+  v1::Job job;
+  job.mutable_summary()->set_iterations(7);
+  std::vector<double> values;
+  for (const auto& metric : metrics.Of(job, series)) values.push_back(metric.value);
+  EXPECT_THAT(values, ElementsAre(2, 5, 5, -3, 1.0, 0.5, 7));
+  EXPECT_TRUE(std::isnan(metrics.Of({}).front().value));  // Of a cell without samples.
+}
+
+TEST(SweepMetrics, OfChannelsThatAreNotThereAreRefusedWithTheNearest) {
+  v1::Sweep sweep = Grid();
+  sweep.add_metrics("series[B1.velocty].max");
+  sweep.add_metrics("series[B1.velocity].max");
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("metrics[1]: the base has no channel 'B1.velocty' — did you "
+                          "mean 'B1.velocity'?"));
+  sweep.mutable_base()->mutable_output()->set_ledger_only(true);
+  sweep.set_metrics(1, "summary.steps");
+  EXPECT_THAT(Mistakes(sweep),
+              ElementsAre("metrics[2]: goes not with base.output.ledger_only, which makes no "
+                          "samples"));
+  v1::Sweep wrong;
+  wrong.add_metrics("series[B1.velocity].largest");
+  wrong.add_metrics("series.max");
+  std::vector<Violation> violations;
+  const SweepMetrics metrics(wrong, &violations);
+  ASSERT_EQ(violations.size(), 2U);
+  EXPECT_EQ(violations[0].description, "'series[B1.velocity].largest': unknown word 'largest'");
+  EXPECT_EQ(violations[1].description, "'series.max' names no number of a channel");
 }
 
 // Four cycles of two contacts, the last of which was cut before its restitution was known.

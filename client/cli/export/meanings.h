@@ -43,6 +43,7 @@ inline constexpr Meaning kCycle[] = {
     {"tension_time_s", "time for which the contact force pulled"},
     {"identity_residual", "imbalance of energy over work_compression"},
     {"group", "number of its group, 0 for none"},
+    {"newton_restitution", "relative velocity after over that before"},
 };
 
 /// A group of cycles.

@@ -37,10 +37,11 @@ void AddLook(CommandLine& line, CLI::App& command) {
       ->type_name("FONT");
   CLI::Option* units = Repeatable(
       Add(command, "--unit",
-          "Units of the axes, such as ms,µm,kN; µ may be written u. Default: those that give few "
+          "Units of the axes, such as ms,µm,kN,g; µ may be written u. Default: those that give few "
           "digits. csv has SI units without prefix")
           ->delimiter(','));
-  line.SuggestWords(units, {"s", "ms", "µs", "m", "mm", "µm", "N", "kN", "m/s", "mm/s", "J", "mJ"})
+  line.SuggestWords(units,
+                    {"s", "ms", "µs", "m", "mm", "µm", "N", "kN", "m/s", "mm/s", "g", "J", "mJ"})
       ->type_name("UNIT,…");
   command.add_flag("--log")->description(
       "A logarithmic y axis, on which values <= 0 have no place");
@@ -55,8 +56,10 @@ void AddLook(CommandLine& line, CLI::App& command) {
 
 const std::vector<std::string>& PresetNames() {
   static const std::vector<std::string> names = {
-      "position",     "displacement",    "velocity",          "force",  "deformation-velocity",
-      "hysteresis",   "restitution",     "iterations",        "energy", "force-map",
+      "position",     "displacement",    "velocity",
+      "acceleration", "force",           "deformation-velocity",
+      "hysteresis",   "restitution",     "iterations",
+      "energy",       "supports",        "force-map",
       "velocity-map", "force-waterfall", "velocity-waterfall"};
   return names;
 }

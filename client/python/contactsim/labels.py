@@ -8,7 +8,8 @@ from typing import Callable
 from contact.v1 import job_pb2, scenario_pb2
 from google.protobuf.descriptor import Descriptor, FieldDescriptor
 
-from .units import ENDINGS, stated_unit, steps_of
+from .figures.words import WORDS
+from .units import ENDINGS, series_metric, stated_unit, steps_of
 
 _BEFORE = {"final_bodies": "final", "groups": "group"}  # Of metrics from these lists.
 
@@ -27,6 +28,11 @@ def axis_label(sweep: scenario_pb2.Sweep, axis: int) -> str:
 def metric_label(metric: str) -> str:
     """A metric, such as `final velocity of B3 [m/s]`, or its path if the contract does not know
     that."""
+    series = series_metric(metric)
+    if series is not None:
+        word, quantity, whose, unit = series
+        of = f" of {whose}" if whose else ""
+        return f"{WORDS['picks'][word]} {quantity.replace('_', ' ')}{of} [{unit}]"
     steps = steps_of(metric)
     before = _BEFORE.get(steps[0][0], "") if steps else ""
     own = steps[1:] if steps and steps[0][0] == "summary" else steps

@@ -13,8 +13,6 @@ from google.protobuf.json_format import MessageToDict
 
 Array = npt.NDArray[np.float64]
 
-_STANDARD_GRAVITY = 9.80665  # m/s²
-
 # Of δ in the damping force, where it is not that of the spring.
 _DAMPING_EXPONENTS = {scenario_pb2.Contact.KELVIN_VOIGT: 0.0, scenario_pb2.Contact.DASHPOT: 0.0,
                       scenario_pb2.Contact.HERTZ_QUARTER_POWER: 0.25}
@@ -98,16 +96,6 @@ def _wall_touch(contact: scenario_pb2.Contact, body: scenario_pb2.Body,
     return touch
 
 
-def mass(body: scenario_pb2.Body) -> float:
-    """In kg; 0 for a fixed body without one, and for one that moves as given."""
-    if body.HasField("motion"):
-        return 0.0
-    if body.HasField("density_kg_per_m3"):
-        r = body.radius_m
-        return 4 / 3 * math.pi * r * r * r * body.density_kg_per_m3
-    return body.mass_kg
-
-
 def solver_in_full(scenario: scenario_pb2.Scenario) -> dict[str, Any]:
     """Options of the solver with the defaults of those that are not set."""
     given = MessageToDict(scenario.solver, preserving_proto_field_name=True,
@@ -123,81 +111,3 @@ def solver_in_full(scenario: scenario_pb2.Scenario) -> dict[str, Any]:
         if value is not None and field.name != unused:
             options.setdefault(field.name, value)
     return options
-
-
-def constant_loads(scenario: scenario_pb2.Scenario) -> list[tuple[str, float]]:
-    """Body and force, in N, of each load that stays the same, as gravity does."""
-    forces = []
-    for load in scenario.loads:
-        kind = load.WhichOneof("kind")
-        if kind == "constant":
-            forces.append((load.body, load.constant.force_n))
-        elif kind == "step" and load.step.start_time_s == 0:
-            forces.append((load.body, load.step.force_n))
-        elif kind == "sine" and load.sine.amplitude_n == 0:
-            forces.append((load.body, 0.0))
-        elif kind == "gravity":
-            given = load.gravity.HasField("acceleration_m_per_s2")
-            acceleration = load.gravity.acceleration_m_per_s2 if given else -_STANDARD_GRAVITY
-            forces += [(body.name, mass(body) * acceleration) for body in scenario.bodies
-                       if not (body.fixed or body.HasField("motion"))
-                       and load.body in ("", body.name)]
-    return forces
-
-
-def mechanical_energy(scenario: scenario_pb2.Scenario,
-                      arrays: dict[str, Array]) -> dict[str, Array]:
-    """Kinetic energy, elastic energy of contacts and supports, that of constant loads, which is 0
-    where positions are, and their sum, in J."""
-    zero = np.zeros_like(arrays["time"])
-    kinetic = sum((_kinetic(body, arrays) for body in scenario.bodies if not body.fixed), zero)
-    contacts = sum((_elastic(law, arrays) for law in contact_laws(scenario)), zero)
-    supports = sum((_spring(support, arrays) for support in scenario.supports), zero)
-    parts = {"kinetic": kinetic, "contacts": contacts}
-    if scenario.supports:
-        parts["supports"] = supports
-    loads = [-force * arrays[f"{body}.position"] for body, force in constant_loads(scenario)]
-    if loads:
-        parts["constant loads"] = sum(loads, zero)
-    return {**parts, "sum": sum(parts.values(), zero)}
-
-
-def _kinetic(body: scenario_pb2.Body, arrays: dict[str, Array]) -> Array:
-    velocity = arrays[f"{body.name}.velocity"]
-    energy: Array = 0.5 * mass(body) * velocity * velocity
-    return energy
-
-
-def _elastic(law: ContactLaw, arrays: dict[str, Array]) -> Array:
-    """∫ k δⁿ dδ."""
-    delta = np.maximum(arrays[f"{law.name}.deformation"], 0)
-    if law.exponent == 1.5:
-        root = np.sqrt(delta)
-    else:  # math.pow gives the last digit that C++ does; numpy's vectors may not.
-        root = np.array([math.pow(d, law.exponent - 1) if d > 0 else 0.0 for d in delta])
-    energy: Array = law.stiffness * (delta * root) * delta / (law.exponent + 1)
-    return energy
-
-
-def _beyond_slack(stretch: Array, most: float) -> Array:
-    """What is left of a stretch where the slack position goes along beyond ±most, as samples tell."""
-    left, slack = np.empty_like(stretch), 0.0
-    for i, length in enumerate(stretch):
-        slack = min(max(slack, length - most), length + most)
-        left[i] = length - slack
-    return left
-
-
-def _spring(support: scenario_pb2.Support, arrays: dict[str, Array]) -> Array:
-    stretch = arrays[f"{support.body}.position"]
-    if support.other:
-        stretch = stretch - arrays[f"{support.other}.position"]
-    stretch = stretch - support.rest_position_m
-    if support.HasField("slip_force_n"):
-        stretch = _beyond_slack(stretch, support.slip_force_n / support.stiffness_n_per_m)
-    share = np.zeros_like(stretch)  # Over the square of the stretch.
-    for order, stiffness in reversed(list(enumerate(
-            [support.stiffness_n_per_m, *support.higher_stiffness], start=2))):
-        share = share * stretch + stiffness / order
-    energy: Array = share * stretch * stretch
-    return energy

@@ -60,6 +60,10 @@ class Plots:
         """v over t of each body."""
         return self("velocity", ax)
 
+    def acceleration(self, ax: Axes | None = None) -> Axes:
+        """a over t of each body."""
+        return self("acceleration", ax)
+
     def force(self, ax: Axes | None = None) -> Axes:
         """Contact force over t, with the equivalent external force dashed and μ/k at the largest
         peaks."""
@@ -82,8 +86,12 @@ class Plots:
         return self("iterations", ax)
 
     def energy(self, ax: Axes | None = None) -> Axes:
-        """What holds energy over t, and the sum, which damping and loads that vary change."""
+        """What holds energy over t, what is dissipated, the work of loads, and their balance."""
         return self("energy", ax)
+
+    def supports(self, ax: Any = None) -> Any:
+        """Force of each support over t, and the energy in its spring, on two Axes."""
+        return self("supports", ax)
 
     def force_map(self, ax: Axes | None = None) -> Axes:
         """Contact force over t as colours, a row for each contact: how a wave goes through many."""

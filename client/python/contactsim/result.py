@@ -111,6 +111,27 @@ class Result:
         return _frame(job_pb2.Cycle.DESCRIPTOR, self.job.cycles)
 
     @functools.cached_property
+    def newton(self) -> pd.DataFrame:
+        """Why Newton's restitution e_N, the ratio of the speeds after and before, is not ε: a row for each
+        collision that separates. `external_force_n` is the mean of F_e over the compression, the load P
+        that presses where loads are constant; NaN where F_e gives back another work than it takes, so
+        that it is no constant. `predicted` is √(ε² − (1 − ε²) 2 P δ_m/(m_e v²)), with m_e v²/2 =
+        W_c − P δ_m."""
+        cycles = self.cycles
+        cycles = cycles[cycles["newton_restitution"] > 0]
+        work, back = cycles["external_work_compression_j"], cycles["external_work_restitution_j"]
+        steady = (work + back).abs() <= 1e-6 * cycles["work_compression_j"]
+        work = work.where(steady)
+        e_squared = cycles["restitution_out"]**2
+        square = e_squared - (1 - e_squared) * work / (cycles["work_compression_j"] - work)
+        return pd.DataFrame({
+            "contact": cycles["contact"], "number": cycles["number"],
+            "restitution_out": cycles["restitution_out"],
+            "newton_restitution": cycles["newton_restitution"],
+            "external_force_n": work / cycles["delta_max_m"],
+            "predicted": square.clip(lower=0)**0.5}).reset_index(drop=True)
+
+    @functools.cached_property
     def groups(self) -> pd.DataFrame:
         """The groups of cycles that share one μ: a row a group. `mu` as in `cycles`."""
         return _frame(job_pb2.Group.DESCRIPTOR, self.job.groups)

@@ -65,6 +65,9 @@ def stated_unit(field: FieldDescriptor) -> str:
 
 def unit_of_metric(metric: str) -> str:
     """SI unit of a metric of a sweep."""
+    series = series_metric(metric)
+    if series is not None:
+        return series[3].replace("^", "").translate(_POWERS)
     steps = [name for name, _ in steps_of(metric) if name not in _PICKS]
     if steps and steps[-1] == "count":
         return "1"
@@ -72,6 +75,20 @@ def unit_of_metric(metric: str) -> str:
     if len(steps) == 1 and steps[0] not in type_.fields_by_name:
         type_ = job_pb2.RunSummary.DESCRIPTOR  # A name alone.
     return unit_of(field_at(type_, ".".join(steps)))
+
+
+def series_metric(metric: str) -> tuple[str, str, str, str] | None:
+    """Word, quantity, owner and unit of a metric of samples such as `series[B1.velocity].max`: max,
+    velocity, B1 and m/s; None of others. The owner of `time` is empty."""
+    steps = steps_of(metric)
+    if len(steps) != 2 or steps[0][0] != "series" or steps[1][1]:
+        return None
+    owner, _, quantity = steps[0][1].rpartition(".")
+    word = steps[1][0]
+    if quantity not in WORDS["channels"] or word not in WORDS["picks"]:
+        return None
+    unit = "s" if word.startswith("time_of_") else WORDS["channels"][quantity]
+    return word, quantity, owner, str(unit)
 
 
 def factor(unit: str, si: str) -> float | None:

@@ -1,5 +1,6 @@
 #include "jobs/read/series_builder.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -9,13 +10,15 @@
 namespace contact {
 
 SeriesBuilder::SeriesBuilder(SeriesSelection selection,
-                             std::vector<v1::FrameChunk::Column> channels)
-    : selection_(std::move(selection)), channels_(std::move(channels)) {
+                             std::vector<v1::FrameChunk::Column> channels, std::size_t first)
+    : selection_(std::move(selection)), channels_(std::move(channels)), first_(first) {
   Restart();
 }
 
 void SeriesBuilder::Restart() {
-  const std::size_t width = selection_.columns.size();
+  columns_ = selection_.columns;
+  missing_.clear();
+  const std::size_t width = columns_.size();
   decimator_.reset();
   if (!selection_.raw) decimator_.emplace(width, selection_.max_rows);
   joiner_ = {};
@@ -41,7 +44,7 @@ bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
   if (!Fits(chunk)) return false;
   const v1::FrameChunk* const whole = joiner_.Add(chunk);
   if (whole == nullptr) return true;
-  if (whole->columns_size() != static_cast<int>(channels_.size())) return false;
+  if (!Narrow(static_cast<std::size_t>(whole->columns_size()))) return false;
   const v1::FrameChunk::Column& times = whole->columns(0);
   int first = 0;
   while (first < whole->samples() && ValueAt(times, first) < selection_.start_time) ++first;
@@ -51,9 +54,25 @@ bool SeriesBuilder::Add(const v1::FrameChunk& chunk) {
   return true;
 }
 
+bool SeriesBuilder::Narrow(std::size_t columns) {
+  if (columns == channels_.size()) return true;
+  if (columns != first_) return false;
+  const auto lacks = [&](int column) { return static_cast<std::size_t>(column) >= columns; };
+  if (std::ranges::none_of(columns_, lacks)) return true;
+  for (const int column : columns_) {
+    if (lacks(column) && !selection_.all) {
+      missing_.push_back(channels_[static_cast<std::size_t>(column)]);
+    }
+  }
+  std::erase_if(columns_, lacks);
+  if (decimator_) decimator_.emplace(columns_.size(), selection_.max_rows);
+  raw_.resize(columns_.size());
+  return true;
+}
+
 void SeriesBuilder::AddRows(const v1::FrameChunk& chunk, std::size_t first, std::size_t count) {
   std::vector<std::string_view> table;
-  for (const int column : selection_.columns) table.emplace_back(chunk.columns(column).values());
+  for (const int column : columns_) table.emplace_back(chunk.columns(column).values());
   recorded_ += count;
   if (decimator_) return decimator_->Add(table, first, count);
   if (TooLarge()) return;
@@ -65,15 +84,16 @@ void SeriesBuilder::AddRows(const v1::FrameChunk& chunk, std::size_t first, std:
 bool SeriesBuilder::TooLarge() const { return selection_.raw && recorded_ > selection_.max_rows; }
 
 Result<v1::Series> SeriesBuilder::Finish() const {
+  if (!missing_.empty()) return NotRecorded(missing_);
   if (TooLarge()) return SeriesTooLarge(selection_.max_rows);
-  const std::size_t width = selection_.columns.size();
+  const std::size_t width = columns_.size();
   const std::vector<double> rows = decimator_ ? decimator_->Rows() : std::vector<double>();
   v1::Series series;
   series.set_samples(static_cast<std::int32_t>(decimator_ ? rows.size() / width : recorded_));
   series.set_recorded_samples(static_cast<std::int64_t>(recorded_));
   for (std::size_t i = 0; i < width; ++i) {
     v1::FrameChunk::Column& column = *series.add_columns();
-    column = channels_[static_cast<std::size_t>(selection_.columns[i])];
+    column = channels_[static_cast<std::size_t>(columns_[i])];
     std::string values = decimator_ ? ColumnBytes(rows, width, i) : raw_[i];
     if (selection_.plain_numbers) {
       const std::vector<double> numbers = Doubles(values);

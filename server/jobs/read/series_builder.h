@@ -16,8 +16,10 @@ namespace contact {
 /// Makes the answer of GetSeries of the frame chunks of a trajectory, given in order.
 class SeriesBuilder {
  public:
-  /// `channels` are all columns of the trajectory.
-  SeriesBuilder(SeriesSelection selection, std::vector<v1::FrameChunk::Column> channels);
+  /// `channels` are all columns of the trajectory, of which one of an older server has the `first`
+  /// ones only.
+  SeriesBuilder(SeriesSelection selection, std::vector<v1::FrameChunk::Column> channels,
+                std::size_t first);
 
   /// Forgets the chunks so far: another attempt begins.
   void Restart();
@@ -29,10 +31,13 @@ class SeriesBuilder {
   bool IsBefore(const v1::FrameChunk& chunk) const;
   /// True if the chunk, which fits, begins after the time range.
   bool IsPast(const v1::FrameChunk& chunk) const;
-  /// The series of all chunks added; SERIES_TOO_LARGE if it has more samples than may be answered.
+  /// The series of all chunks added; SERIES_TOO_LARGE if it has more samples than may be answered,
+  /// FIELD_INVALID if it was asked for channels that the chunks lack.
   Result<v1::Series> Finish() const;
 
  private:
+  /// Leaves out what chunks of so many columns lack. False if no trajectory has so many.
+  bool Narrow(std::size_t columns);
   /// Adds samples of a chunk with all columns: `count` from `first` on.
   void AddRows(const v1::FrameChunk& chunk, std::size_t first, std::size_t count);
   /// True if there are more samples than may be answered.
@@ -40,6 +45,11 @@ class SeriesBuilder {
 
   const SeriesSelection selection_;
   const std::vector<v1::FrameChunk::Column> channels_;
+  const std::size_t first_;
+  /// Those of the selection that the chunks have.
+  std::vector<int> columns_;
+  /// Named in the request, and not in the chunks.
+  std::vector<v1::FrameChunk::Column> missing_;
   ColumnJoiner joiner_;
   /// Nothing for RAW.
   std::optional<MinMaxDecimator> decimator_;

@@ -5,7 +5,7 @@
 
 #include "base/executor.h"
 #include "jobs/job/errors.h"
-#include "wire/result_codec.h"
+#include "wire/scenario/channels.h"
 
 namespace contact {
 namespace {
@@ -60,7 +60,8 @@ void SeriesReader::Open(const absl::StatusOr<StoredJob>& stored) {
   Result<SeriesSelection> selection = ToSelection(request_, channels);
   if (!selection.ok()) return Answer(selection.error());
   const bool large = IsLarge(selection.value(), decoded.scenario);
-  builder_.emplace(std::move(selection.value()), std::move(channels));
+  builder_.emplace(std::move(selection.value()), std::move(channels),
+                   FirstChannels(decoded.scenario));
   last_ = job.last_sequence();
   if (!large) return Begin(stored->epoch);
   large_.Run([self = shared_from_this(), attempts = stored->epoch](FewAtOnce::Place place) {

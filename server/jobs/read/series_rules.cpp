@@ -71,11 +71,21 @@ void CheckTimes(const v1::GetSeriesRequest& request, std::vector<Violation>* vio
 
 }  // namespace
 
+Error NotRecorded(const std::vector<v1::FrameChunk::Column>& channels) {
+  std::vector<Violation> violations;
+  for (const auto& channel : channels) {
+    violations.push_back({"channels", fmt::format("{} is not recorded", Quoted(channel.name())),
+                          "an older server made this job; run its scenario again"});
+  }
+  return Invalid(std::move(violations));
+}
+
 Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request, const Columns& channels) {
   constexpr double kEver = std::numeric_limits<double>::infinity();
   std::vector<Violation> violations;
   SeriesSelection selection;
   selection.columns = SelectColumns(request, channels, &violations);
+  selection.all = request.channels().empty();
   selection.start_time = request.has_start_time_s() ? request.start_time_s() : -kEver;
   selection.end_time = request.has_end_time_s() ? request.end_time_s() : kEver;
   CheckTimes(request, &violations);

@@ -12,6 +12,8 @@ namespace contact {
 struct SeriesSelection {
   /// Indices of columns of the trajectory; the first is the time.
   std::vector<int> columns;
+  /// Whether no channel was named: what is not recorded is left out then.
+  bool all = false;
   /// Earliest time of a sample [s].
   double start_time = 0;
   /// Latest time of a sample [s].
@@ -28,5 +30,8 @@ struct SeriesSelection {
 /// job_service.proto, SERIES_TOO_LARGE if not even the fewest points would fit into an answer.
 Result<SeriesSelection> ToSelection(const v1::GetSeriesRequest& request,
                                     const std::vector<v1::FrameChunk::Column>& channels);
+
+/// The error of a request for these columns of a job of a server that did not record them yet.
+Error NotRecorded(const std::vector<v1::FrameChunk::Column>& channels);
 
 }  // namespace contact

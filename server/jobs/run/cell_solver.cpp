@@ -16,20 +16,23 @@
 namespace contact {
 namespace {
 
-// Keeps of a run what metrics may ask for, and its samples if it records any.
+// Keeps of a run what metrics may ask for, and its samples if there is a place for them.
 class CellObserver final : public Observer {
  public:
   CellObserver(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
-               v1::Job* result, std::vector<v1::FrameChunk>* trajectory)
+               v1::Job* result, SeriesTally* series, std::vector<v1::FrameChunk>* trajectory)
       : scenario_(scenario),
         control_(control),
         meanwhile_(meanwhile),
         result_(result),
+        series_(series),
         trajectory_(trajectory) {}
 
   void OnCycle(const Cycle& cycle) override { *result_->add_cycles() = Encode(scenario_, cycle); }
   void OnGroup(const Group& group) override { *result_->add_groups() = Encode(scenario_, group); }
   void OnSamples(const Samples& samples) override {
+    series_->See(samples);
+    if (trajectory_ == nullptr) return;
     std::ranges::move(SplitColumns(Encode(scenario_, samples)), std::back_inserter(*trajectory_));
   }
   void OnProgress(const Progress& /*progress*/) override { meanwhile_.write(); }
@@ -52,6 +55,7 @@ class CellObserver final : public Observer {
   RunControl& control_;
   const Meanwhile& meanwhile_;
   v1::Job* result_;
+  SeriesTally* series_;
   std::vector<v1::FrameChunk>* trajectory_;
   std::stop_source stop_;
   const std::stop_callback<std::function<void()>> with_run_{control_.token(),
@@ -104,14 +108,17 @@ bool CellSolver::Compute(RunControl& control, const Meanwhile& meanwhile, Solved
     return true;
   }
   const auto& kept = sweep_.keep_trajectories();
-  if (std::ranges::find(kept, cell->index()) == kept.end()) decoded.scenario.sample_interval = 0;
-  return Run(decoded.scenario, control, meanwhile, solved);
+  const bool keeps = std::ranges::find(kept, cell->index()) != kept.end();
+  if (!keeps && !plan_.metrics.need_samples()) decoded.scenario.sample_interval = 0;
+  return Run(decoded.scenario, keeps, control, meanwhile, solved);
 }
 
-bool CellSolver::Run(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
-                     SolvedCell* solved) const {
+bool CellSolver::Run(const Scenario& scenario, bool keeps, RunControl& control,
+                     const Meanwhile& meanwhile, SolvedCell* solved) const {
   v1::Job result;
-  CellObserver observer(scenario, control, meanwhile, &result, &solved->trajectory);
+  SeriesTally series = plan_.metrics.Tally(scenario);
+  CellObserver observer(scenario, control, meanwhile, &result, &series,
+                        keeps ? &solved->trajectory : nullptr);
   const Outcome outcome = options_.run(scenario, observer, observer.token());
   observer.TellSteps();
   const Transition transition = TransitionAfter(outcome);
@@ -125,7 +132,7 @@ bool CellSolver::Run(const Scenario& scenario, RunControl& control, const Meanwh
   cell.set_convergence(result.convergence());
   cell.set_cycles(result.summary().cycles());
   cell.set_cycles_cut(result.summary().cycles_cut());
-  for (const auto& metric : plan_.metrics.Of(result)) {
+  for (const auto& metric : plan_.metrics.Of(result, series)) {
     cell.add_metrics(metric.value);
     cell.add_sources(metric.source);
   }

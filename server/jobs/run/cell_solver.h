@@ -47,8 +47,9 @@ class CellSolver {
  private:
   /// Fills `solved`, whose index is set. False if there is no result.
   bool Compute(RunControl& control, const Meanwhile& meanwhile, SolvedCell* solved);
-  /// Solves the scenario of a cell and takes over its result. False if there is none.
-  bool Run(const Scenario& scenario, RunControl& control, const Meanwhile& meanwhile,
+  /// Solves the scenario of a cell and takes over its result, with its trajectory if the sweep
+  /// keeps it. False if there is none.
+  bool Run(const Scenario& scenario, bool keeps, RunControl& control, const Meanwhile& meanwhile,
            SolvedCell* solved) const;
 
   const v1::Sweep& sweep_;

@@ -216,7 +216,7 @@ void serialize(Archive& archive, CycleSample& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Trace& t) {
-  archive(t.bodies, t.steps, t.ends, t.pressed, t.presses, t.samples);
+  archive(t.bodies, t.steps, t.ends, t.dissipated, t.pressed, t.presses, t.samples);
 }
 
 template <class Archive>
@@ -257,7 +257,7 @@ void serialize(Archive& archive, ClusterState::Station& s) {
 template <class Archive>
 void serialize(Archive& archive, ClusterState& s) {
   archive(s.pieces, s.stations, s.waiting, s.number, s.look_at, s.blocks);
-  archive(s.useful, s.wasted, s.loss, s.impulse);
+  archive(s.useful, s.wasted, s.dissipated, s.loss, s.impulse);
 }
 
 template <class Archive>

@@ -342,6 +342,7 @@ void ClusterRun::ForgetUntil(double instant) {
     const std::shared_ptr<Piece>& piece = entry.second;
     if (piece->ends() > instant) return false;
     run_.outcome.episodes += piece->has_episode;
+    frames_.Forget(*piece);
     loss_ += piece->loss;
     impulse_ += piece->impulse;
     for (std::size_t i = 0; i < piece->start.contacts.size(); ++i) {
@@ -377,6 +378,7 @@ RunState ClusterRun::Save() const {
   clusters.blocks = blocks_.All();
   clusters.useful = useful_;
   clusters.wasted = wasted_;
+  clusters.dissipated = frames_.dissipated();
   clusters.loss = loss_;
   clusters.impulse = impulse_;
   saved.clusters = std::make_shared<const ClusterState>(std::move(clusters));
@@ -409,7 +411,7 @@ void ClusterRun::Restore(const RunState& from) {
   loss_ = clusters.loss;
   impulse_ = clusters.impulse;
   agenda_.Begin();
-  frames_.Restore(from.sampling, from.state.time);
+  frames_.Restore(from.sampling, from.state.time, clusters.dissipated);
 }
 
 double ClusterRun::Energy() const {

@@ -23,6 +23,7 @@ struct ClusterState {
   std::int64_t look_at = 0;                    ///< and at which to look what is certain.
   std::vector<std::vector<int>> blocks;        ///< Bodies that stay together for good.
   std::int64_t useful = 0, wasted = 0;         ///< Steps since bodies were bound last.
+  double dissipated = 0;                       ///< In forgotten pieces, as samples tell it [J].
   double loss = 0;                             ///< Dissipated in pieces [J].
   double impulse = 0;                          ///< Of walls and fixed bodies [N·s].
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "simulation/course/telling.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -11,12 +12,17 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
     : world_(world),
       scenario_(world.scenario()),
       equations_(scenario_),
+      loads_(scenario_.bodies.size()),
       log_(scenario_, std::move(stop),
            [&](const Samples& samples) { observer.OnSamples(samples); }),
       places_(scenario_.bodies.size()),
       velocities_(scenario_.bodies.size()),
       accelerations_(scenario_.bodies.size()),
-      forces_(scenario_.contacts.size()) {}
+      forces_(scenario_.contacts.size()) {
+  for (const Load& load : scenario_.loads) {
+    if (!scenario_.bodies[At(load.body)].fixed) loads_[At(load.body)] += load.constant;
+  }
+}
 
 void Frames::RecordUntil(double instant, const Pieces& pieces) {
   if (scenario_.sample_interval == 0) return;
@@ -78,6 +84,61 @@ void Frames::Append(double instant, const Pieces& pieces, std::vector<double>* r
         equations_.effective_mass(c) * equations_.Relative(c, accelerations_.data()) + force;
     row->insert(row->end(), {-Gap(c), equations_.Relative(c, velocities_.data()), force, external});
   }
+  row->insert(row->end(), accelerations_.begin(), accelerations_.end());
+  AppendEnergies(instant, pieces, row);
+}
+
+void Frames::AppendEnergies(double instant, const Pieces& pieces, std::vector<double>* row) const {
+  double stored = 0, dissipated = dissipated_, work = 0;
+  for (int c = 0; c < equations_.contacts(); ++c) {
+    stored += ElasticEnergy(scenario_.contacts[At(c)], -Gap(c));
+  }
+  for (const auto& [number, piece] : pieces) {
+    if (piece->begins() < instant) dissipated += DissipatedIn(*piece, instant);
+  }
+  for (std::size_t b = 0; b < places_.size(); ++b) work += loads_[b] * places_[b].u;
+  row->insert(row->end(), {KineticEnergy(scenario_, velocities_), stored, 0, dissipated, work});
+}
+
+// At the ends of steps it was recorded, and so it is at samples that the piece has asked for. At
+// those of others it follows from the balance of its bodies since the begin of the step.
+double Frames::DissipatedIn(const Piece& piece, double instant) const {
+  const Trace& trace = piece.trace;
+  if (trace.dissipated.empty()) return 0;
+  const std::size_t step = trace.StepAt(instant);
+  if (instant >= trace.steps[step].At(1)) return trace.dissipated[step];
+  const double before = step == 0 ? 0 : trace.dissipated[step - 1];
+  own_.clear();
+  for (std::size_t b = 0; b < trace.bodies; ++b) {
+    own_.push_back(trace.ends[step * trace.bodies + b].from);
+  }
+  const double from = EnergyOf(piece, own_);
+  own_.clear();
+  for (const int body : piece.start.bodies) own_.push_back(places_[At(body)]);
+  return before + from - EnergyOf(piece, own_);
+}
+
+double Frames::EnergyOf(const Piece& piece, std::span<const Place> places) const {
+  const std::vector<int>& bodies = piece.start.bodies;
+  double energy = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const double mass = scenario_.bodies[At(bodies[b])].mass;
+    energy += 0.5 * mass * places[b].v * places[b].v - loads_[At(bodies[b])] * places[b].u;
+  }
+  const auto of = [&](int body) {
+    const auto found = std::ranges::lower_bound(bodies, body);
+    if (found == bodies.end() || *found != body) return Place{};  // It stands still.
+    return places[static_cast<std::size_t>(found - bodies.begin())];
+  };
+  for (const int c : piece.start.contacts) {
+    const Contact& contact = scenario_.contacts[At(c)];
+    energy += ElasticEnergy(contact, -world_.Gap(c, of(contact.left), of(contact.right)));
+  }
+  return energy;
+}
+
+void Frames::Forget(const Piece& piece) {
+  if (!piece.trace.dissipated.empty()) dissipated_ += piece.trace.dissipated.back();
 }
 
 }  // namespace contact

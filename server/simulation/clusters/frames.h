@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ class Frames {
   /// Takes the samples up to an instant that are not taken yet [s]. `pieces`: all that go on after
   /// the last sample.
   void RecordUntil(double instant, const Pieces& pieces);
+  /// A piece ends before all samples to come.
+  void Forget(const Piece& piece);
   /// Hands out what is left, at the end of the run.
   void Flush() { log_.Flush(); }
   /// True if samples are missing because the run was asked to stop.
@@ -30,27 +33,41 @@ class Frames {
   bool full() const { return log_.full(); }
 
   Sampling Save() const { return log_.Save(); }
+  /// Dissipated in the pieces that are forgotten [J].
+  double dissipated() const { return dissipated_; }
   /// Goes on from there; all up to `time` was taken [s].
-  void Restore(Sampling from, double time) {
+  void Restore(Sampling from, double time, double dissipated) {
     log_.Restore(std::move(from));
     until_ = time;
+    dissipated_ = dissipated;
   }
 
  private:
   void FindSamples(double from, double until, const Pieces& pieces);
   void Append(double instant, const Pieces& pieces, std::vector<double>* row);
   void FindForces(double instant, const Pieces& pieces);
+  /// What the contacts of a piece have dissipated from its begin to the instant of the sample [J].
+  double DissipatedIn(const Piece& piece, double instant) const;
+  /// Kinetic energy of the bodies of a piece and elastic energy of its contacts less the work of
+  /// the loads since t = 0 [J], where its bodies are at these places.
+  double EnergyOf(const Piece& piece, std::span<const Place> places) const;
+  /// Appends the energies of the system.
+  void AppendEnergies(double instant, const Pieces& pieces, std::vector<double>* row) const;
   /// −δ of a contact between the places of the sample [m].
   double Gap(int contact) const;
 
   const World& world_;
   const Scenario& scenario_;
   const Equations equations_;
+  std::vector<double> loads_;  // On each body [N]: they are constant.
   SampleLog log_;
   double until_ = 0;  // All up to here are taken [s].
+  double dissipated_ = 0;
   std::vector<CycleSample> wanted_;
   // Of a sample: each body's place, ẋ and ẍ, and F of each contact.
   std::vector<Place> places_;
+  // Of the bodies of a piece.
+  mutable std::vector<Place> own_;
   std::vector<double> velocities_, accelerations_, forces_;
 };
 

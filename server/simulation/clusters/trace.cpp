@@ -67,6 +67,7 @@ void TraceWriter::FindParts(const StepTime& step) {
 void TraceWriter::OnStep(const StepTime& step) {
   const RungeKutta& rk = motion_.integrator();
   FindParts(step);
+  if (trace_.steps.empty()) lost_before_ = motion_.ExchangedUntil(rk.y0).dissipated;
   if (parts_.empty()) return Write(step, rk.y0, rk.slope0, rk.y1, rk.slope1);
   motion_.PrepareInterpolation();
   from_ = rk.y0;
@@ -105,6 +106,7 @@ void TraceWriter::Write(const StepTime& step, const Eigen::ArrayXd& y0,
                            .to_acceleration = slope1[n + i]});
   }
   if (interval_ == 0) return;
+  trace_.dissipated.push_back(motion_.ExchangedUntil(y1).dissipated - lost_before_);
   for (const ActiveContact& active : motion_.equations().active) {
     trace_.pressed.push_back({contacts_[static_cast<std::size_t>(active.contact)], active.mu});
   }
@@ -121,6 +123,7 @@ void TraceWriter::TakeBack() {
   trace_.ends.resize(held_ * trace_.bodies);
   if (interval_ == 0) return;
   trace_.samples.resize(held_samples_);
+  trace_.dissipated.resize(held_);
   trace_.presses.resize(held_);
   trace_.pressed.resize(held_ == 0 ? 0 : trace_.presses.back());
 }

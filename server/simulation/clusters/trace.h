@@ -26,6 +26,7 @@ struct Trace {
   std::size_t bodies = 0;
   std::vector<StepTime> steps;
   std::vector<Ends> ends;            ///< Of each body in each step, step after step.
+  std::vector<double> dissipated;    ///< From the begin of all to the end of each step [J].
   std::vector<Pressed> pressed;      ///< In each step, step after step,
   std::vector<std::size_t> presses;  ///< up to here.
   std::vector<CycleSample> samples;  ///< Those that its cycles want, in the order of time.
@@ -67,6 +68,7 @@ class TraceWriter final : public Recording {
   const int per_cycle_;
   Trace& trace_;
   std::vector<double> base_;  // u at the begin of the stretch [m].
+  double lost_before_ = 0;    // Of cycles that run where the trace begins, until then [J].
   // Scratch.
   std::vector<CycleSample> found_;
   std::vector<double> parts_;

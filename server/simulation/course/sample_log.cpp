@@ -2,13 +2,14 @@
 
 #include <utility>
 
+#include "simulation/model/derived.h"
+
 namespace contact {
 
 SampleLog::SampleLog(const Scenario& scenario, std::stop_token stop,
                      std::function<void(const Samples&)> hand_out)
     : scenario_(scenario), stop_(std::move(stop)), hand_out_(std::move(hand_out)) {
-  samples_.columns =
-      static_cast<int>(1 + 2 * scenario.bodies.size() + 4 * scenario.contacts.size());
+  samples_.columns = SampleColumns(scenario);
 }
 
 double SampleLog::NextRegular(double instant) const {

@@ -144,10 +144,7 @@ double Steps(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   return steps;
 }
 
-double Columns(const Scenario& scenario) {
-  return 1 + 2 * static_cast<double>(scenario.bodies.size()) +
-         4 * static_cast<double>(scenario.contacts.size());
-}
+double Columns(const Scenario& scenario) { return SampleColumns(scenario); }
 
 double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   if (scenario.sample_interval == 0) return 0;

@@ -31,6 +31,13 @@ inline double InitialGap(const Scenario& scenario, const Contact& contact) {
   return std::abs(gap) <= 1e-12 * size ? 0 : gap;
 }
 
+/// How many numbers a sample of the trajectory has, as Samples lists them.
+inline int SampleColumns(const Scenario& scenario) {
+  constexpr std::size_t kTime = 1, kOfSystem = 5;
+  return static_cast<int>(kTime + 3 * scenario.bodies.size() + 4 * scenario.contacts.size() +
+                          2 * scenario.supports.size() + kOfSystem);
+}
+
 /// Force of a load at t [s] by its formula [N], whether it acts then or not.
 inline double LoadForce(const Load& load, double t) {
   const double since = t - load.begin;

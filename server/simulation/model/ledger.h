@@ -136,11 +136,13 @@ struct Iteration {
 };
 
 /// Samples of the accepted trajectory in time order, one row a sample:
-///   t, then x, v of each body, then δ, δ̇, F, F_e of each contact.
+///   t, then x, v of each body, then δ, δ̇, F, F_e of each contact, then ẍ of each body,
+///   force on its body and energy of the spring of each support, and of the system, (B1):
+///   ½Σmv², ΣU, energy of all supports, what is dissipated since 0, and load work since 0.
 struct Samples {
   std::int64_t first = 0;      ///< Index of the first row in the trajectory, from 0.
-  int columns = 0;             ///< 1 + 2·bodies + 4·contacts.
-  std::vector<double> values;  ///< Row after row; [s], [m], [m/s], [N].
+  int columns = 0;             ///< SampleColumns of the scenario.
+  std::vector<double> values;  ///< Row after row; [s], [m], [m/s], [m/s²], [N], [J].
 
   /// Number of rows.
   int rows() const { return columns == 0 ? 0 : static_cast<int>(values.size()) / columns; }

@@ -121,14 +121,6 @@ void Equations::Rebase(const std::vector<double>& positions) {
   }
 }
 
-[[gnu::always_inline]] inline double Equations::SupportForce(std::size_t support, const double* u,
-                                                             const double* v) const {
-  const Support& s = scenario_.supports[support];
-  const double stretch = Stretch(support, u);
-  const double spring = s.IsLinear() ? s.stiffness * stretch : SpringOf(support, stretch).force;
-  return -spring - s.damping * Relative(s, v);  // (M4)
-}
-
 ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
   const Contact& c = scenario_.contacts[At(contact)];
   ActiveContact made{sides(contact)};
@@ -309,19 +301,31 @@ void Equations::AddDriveWork(const double* y, double* dy, double pace) const {
   }
 }
 
-double Equations::Energy(const double* y) const {
+double Equations::SupportEnergy(std::size_t support, const double* u) const {
+  return SpringOf(support, Stretch(support, u)).energy;
+}
+
+double Equations::KineticEnergy(const double* y) const {
   const int n = bodies();
   double energy = 0;
   for (int i = 0; i < n; ++i) {
     if (inverse_mass_[At(i)] != 0) energy += 0.5 * y[n + i] * y[n + i] / inverse_mass_[At(i)];
   }
-  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {
-    energy += SpringOf(i, Stretch(i, y)).energy;
-  }
+  return energy;
+}
+
+double Equations::ContactEnergy(const double* y) const {
+  double energy = 0;
   for (const ActiveContact& c : active) {
     energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
   }
   return energy;
+}
+
+double Equations::Energy(const double* y) const {
+  double energy = KineticEnergy(y);
+  for (std::size_t i = 0; i < scenario_.supports.size(); ++i) energy += SupportEnergy(i, y);
+  return energy + ContactEnergy(y);
 }
 
 double Equations::Momentum(const double* y) const {

@@ -145,6 +145,21 @@ class Equations : public StateLayout {
   /// The contact for `active`, with δ = u_left − u_right − `gap`.
   ActiveContact Activate(int contact, double gap, double mu, int column) const;
 
+  /// Force of the support with this index on its first body [N], (M4).
+  [[gnu::always_inline]] double SupportForce(std::size_t support, const double* u,
+                                             const double* v) const {
+    const Support& s = scenario_.supports[support];
+    const double stretch = Stretch(support, u);
+    const double spring = s.IsLinear() ? s.stiffness * stretch : SpringOf(support, stretch).force;
+    return -spring - s.damping * Relative(s, v);  // (M4)
+  }
+  /// Energy in the spring of the support with this index [J].
+  double SupportEnergy(std::size_t support, const double* u) const;
+
+  /// Kinetic energy of the bodies that are not fixed [J].
+  double KineticEnergy(const double* y) const;
+  /// Elastic energy of the active contacts [J], (W2).
+  double ContactEnergy(const double* y) const;
   /// Kinetic energy, and elastic energy of the supports and of the active contacts [J], (B1).
   double Energy(const double* y) const;
   /// Momentum of the bodies that are not fixed [N·s], (B2).
@@ -212,8 +227,6 @@ class Equations : public StateLayout {
   void AddDriveWork(const double* y, double* dy, double pace) const;
   /// Adds the quadratures that only a recording has.
   void AddRecord(double t, const double* y, double* dy, double pace) const;
-  /// Force of the support with this index on its first body [N], (M4).
-  double SupportForce(std::size_t support, const double* u, const double* v) const;
   /// Difference of a per-body quantity between the bodies of a support; the ground counts 0.
   static double Relative(const Support& s, const double* of_bodies) {
     return of_bodies[s.body] - (s.other == kNone ? 0 : of_bodies[s.other]);

@@ -60,6 +60,19 @@ State Motion::Save() const {
   return state;
 }
 
+Exchanged Motion::ExchangedUntil(const Eigen::ArrayXd& y) const {
+  const Equations& equations = system_.equations;
+  double lost = totals_.support_loss + y[equations.support_loss()] + system_.contact_loss;
+  for (const ActiveContact& active : equations.active) {
+    const Contact& contact = system_.scenario.contacts[At(active.contact)];
+    const double from = system_.contacts[At(active.contact)].cycle.start_deformation;
+    const double deformation = active.Relative(y.data()) - active.gap;
+    lost += y[equations.work(active.contact)] - ElasticEnergy(contact, deformation) +
+            ElasticEnergy(contact, from);
+  }
+  return {.dissipated = lost, .load_work = totals_.load_work + y[equations.load_work()]};
+}
+
 Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* listener,
                               const std::stop_token& stop, std::int64_t step_limit) {
   cycles_.AskRests(host);

@@ -24,6 +24,12 @@ class StepListener {
   virtual void OnStep(const StepTime& time) = 0;
 };
 
+/// What has been done and lost since t = 0, (B1) [J].
+struct Exchanged {
+  double dissipated = 0;  ///< In contacts and supports.
+  double load_work = 0;   ///< By loads and drives.
+};
+
 /// Moves the system forward in steps that land on contact events, and takes the contacts
 /// through their phases. README.md, "Integration".
 class Motion {
@@ -79,6 +85,9 @@ class Motion {
   void PrepareInterpolation() { system_.PrepareInterpolation(); }
   /// y at θ in the step that the listener hears of.
   void Interpolate(double theta, Eigen::ArrayXd* y) const { system_.Interpolate(theta, y); }
+  /// What has been done and lost until a state y of the step that the listener hears of; in running
+  /// cycles that is W less what is stored, (W2). Only of a recording.
+  Exchanged ExchangedUntil(const Eigen::ArrayXd& y) const;
   /// In order of Scenario::contacts. Gaps are those at Begin; Save has those of now.
   const std::vector<ContactState>& contacts() const { return system_.contacts; }
   /// δ [m] of a contact for the displacements in y.

@@ -21,8 +21,8 @@ using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-constexpr std::array<std::string_view, 5> kRoots{"cycles", "groups", "final_bodies", "summary",
-                                                 "convergence"};
+constexpr std::array<std::string_view, 6> kRoots{"cycles",  "groups",      "final_bodies",
+                                                 "summary", "convergence", "series"};
 
 // Numbers of a result that say nothing of a run without a cycle: those of the search for μ.
 constexpr std::array<std::string_view, 6> kOfCycles{
@@ -68,7 +68,14 @@ SweepMetrics::SweepMetrics(const v1::Sweep& sweep, std::vector<Violation>* viola
   const int most = RuleOf<v1::Sweep>(v1::Sweep::kMetricsFieldNumber).max_entries();
   if (!Rules(violations).RequireAtMost("metrics", sweep.metrics_size(), most)) return;
   for (int i = 0; i < sweep.metrics_size(); ++i) {
-    paths_.push_back(Find(sweep.metrics(i), Rules(violations, "metrics", i)));
+    const Rules rules(violations, "metrics", i);
+    const std::vector<PathStep> steps = ParsePath(sweep.metrics(i), true);
+    if (steps.empty() || steps.front().name != "series") {
+      paths_.push_back(Find(sweep.metrics(i), rules));
+    } else if (auto metric = FindSeriesMetric(steps, sweep.metrics(i), rules)) {
+      paths_.emplace_back();
+      series_.push_back(*std::move(metric));
+    }
   }
 }
 
@@ -130,26 +137,38 @@ std::optional<SweepMetrics::Pick> SweepMetrics::PickOf(std::span<const PathStep>
 }
 
 void SweepMetrics::CheckNames(const Scenario& scenario, std::vector<Violation>* violations) const {
+  auto series = series_.begin();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
-    const Step& root = paths_[i].front();
-    if (root.key.empty()) continue;
-    std::vector<std::string_view> names;
-    if (root.field->name() != "final_bodies") {
-      for (const Contact& contact : scenario.contacts) names.push_back(contact.name);
-    } else {
-      for (const Body& body : scenario.bodies) names.push_back(body.name);
+    const Rules rules(violations, "metrics", static_cast<int>(i));
+    if (paths_[i].empty()) {
+      CheckChannel(*series++, scenario, rules);
+    } else if (!paths_[i].front().key.empty()) {
+      CheckName(paths_[i].front(), scenario, rules);
     }
-    if (std::ranges::find(names, root.key) != names.end()) continue;
-    Rules(violations, "metrics", static_cast<int>(i))
-        .Break("", fmt::format("the base has no {}", Quoted(root.key)),
-               DidYouMean(root.key, names));
   }
 }
 
-std::vector<SweepMetrics::Metric> SweepMetrics::Of(const v1::Job& result) const {
+void SweepMetrics::CheckName(const Step& root, const Scenario& scenario, const Rules& rules) {
+  std::vector<std::string_view> names;
+  if (root.field->name() != "final_bodies") {
+    for (const Contact& contact : scenario.contacts) names.push_back(contact.name);
+  } else {
+    for (const Body& body : scenario.bodies) names.push_back(body.name);
+  }
+  if (std::ranges::find(names, root.key) != names.end()) return;
+  rules.Break("", fmt::format("the base has no {}", Quoted(root.key)), DidYouMean(root.key, names));
+}
+
+std::vector<SweepMetrics::Metric> SweepMetrics::Of(const v1::Job& result,
+                                                   const SeriesTally& series) const {
   std::vector<Metric> metrics;
   metrics.reserve(paths_.size());
+  std::size_t of_samples = 0;
   for (const Path& path : paths_) {
+    if (path.empty()) {
+      metrics.push_back({.value = series.Of(of_samples++)});
+      continue;
+    }
     metrics.push_back(Value(path, result));
     if (result.cycles().empty() && IsOfCycles(*path.back().field)) {
       metrics.back().source = v1::SweepCell::NO_CONTACT;

@@ -14,6 +14,7 @@
 #include "wire/rules/field_path.h"
 #include "wire/rules/rules.h"
 #include "wire/scenario/scenario_codec.h"
+#include "wire/sweep/series_metrics.h"
 
 namespace contact {
 
@@ -26,7 +27,7 @@ class SweepMetrics {
   /// Reads the paths of the metrics. Notes those that are not the path of a number in a Job.
   SweepMetrics(const v1::Sweep& sweep, std::vector<Violation>* violations);
 
-  /// Notes the metrics that name a body or contact that is not in the scenario.
+  /// Notes the metrics that name a body, contact or channel that is not in the scenario.
   void CheckNames(const Scenario& scenario, std::vector<Violation>* violations) const;
 
   /// A metric of a result: its number, NaN where the result has none, and where it comes from.
@@ -34,8 +35,12 @@ class SweepMetrics {
     double value = kNaN;
     v1::SweepCell::Source source = v1::SweepCell::RESULT;
   };
-  /// The metrics of a result in their order.
-  std::vector<Metric> Of(const v1::Job& result) const;
+  /// The metrics of a result and the samples of its run in their order.
+  std::vector<Metric> Of(const v1::Job& result, const SeriesTally& series = {}) const;
+  /// Whether some are of samples.
+  bool need_samples() const { return !series_.empty(); }
+  /// What those are of a run of this scenario.
+  SeriesTally Tally(const Scenario& scenario) const { return {series_, scenario}; }
 
  private:
   using Message = google::protobuf::Message;
@@ -55,6 +60,8 @@ class SweepMetrics {
   // The path that `text` names from a Job. Notes if there is none, or if no number is at its end;
   // the path is then incomplete.
   static Path Find(const std::string& text, const Rules& rules);
+  // Notes a metric that names a body or contact that is not in the scenario.
+  static void CheckName(const Step& root, const Scenario& scenario, const Rules& rules);
   // Find for the steps of a path.
   static Path Follow(std::span<const PathStep> steps, const std::string& text, const Rules& rules);
   // What the first of these steps picks; nothing if it is the name of a field, or none.
@@ -66,8 +73,10 @@ class SweepMetrics {
   // Whether the number of the next entry takes the place of the one chosen before.
   static bool IsChosen(Pick pick, double next, double before);
 
-  // One path for each metric.
+  // One path for each metric; empty for one of samples.
   std::vector<Path> paths_;
+  // Those of samples, in their order.
+  std::vector<SeriesMetric> series_;
 };
 
 }  // namespace contact

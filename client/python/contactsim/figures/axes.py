@@ -43,11 +43,14 @@ def readable_unit(label: str, largest: float) -> AxisUnit:
 
 
 def named_unit(label: str, unit: str) -> AxisUnit | None:
-    """The axis in the unit that a user names, such as `mm` or `µm`, which may be written um; None
-    unless it is the unit of the label, with a prefix of SI or without."""
+    """The axis in the unit that a user names, such as `mm` or `µm`, which may be written um, or `g`;
+    None unless it is the unit of the label, with a prefix of SI or without, or one of the same."""
     base = unit_of(label)
     if not base:
         return None
+    other = WORDS["other_units"].get(unit)
+    if other is not None and other["of"] == base:
+        return AxisUnit(other["size"], _renamed(label, unit))
     if unit == base:
         return AxisUnit(1.0, label)
     if not _takes_prefix(base):
@@ -87,4 +90,8 @@ def _takes_prefix(unit: str) -> bool:
 
 
 def _shown(label: str, power: int, unit: str) -> AxisUnit:
-    return AxisUnit(10.0**power, f"{label[:label.rindex('[')]}[{unit}]")
+    return AxisUnit(10.0**power, _renamed(label, unit))
+
+
+def _renamed(label: str, unit: str) -> str:
+    return f"{label[:label.rindex('[')]}[{unit}]"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Callable, Sequence
 import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
-from ..model import Array, mechanical_energy
+from ..model import Array
 from ..spelling import expected, nearest
 from .contacts import deformation_velocity, force, hysteresis
 from .figure import Curve, Figure, FigureError, Kind, Mark, Panel
@@ -121,17 +121,40 @@ def _iterations(run: Shown) -> list[Panel]:
     return panels
 
 
+def _acceleration(run: Shown) -> list[Panel]:
+    """a over t of each body."""
+    return [_bodies(run, "acceleration", "acceleration [m/s^2]")]
+
+
+def _supports(run: Shown) -> list[Panel]:
+    """Force of each support on its body over t, and the energy in its spring."""
+    if not run.result.scenario.supports:
+        raise FigureError("this run has no supports")
+    run.column("system.support_energy")
+    ending = ".support_force"
+    names = [column.removesuffix(ending) for column in run.result.arrays if column.endswith(ending)]
+    panels = []
+    for quantity, label in (("support_force", "force [N]"), ("support_energy", "energy [J]")):
+        panel = run.over_time(label)
+        panel.curves = [run.curve(run.column(f"{name}.{quantity}"), name, colour)
+                        for colour, name in enumerate(names)]
+        panels.append(panel)
+    return panels
+
+
 def _energy(run: Shown) -> list[Panel]:
-    """What holds energy over t, and the sum, which damping and loads that vary change."""
-    if "time" not in run.result.arrays:
-        raise FigureError("this run recorded no trajectory; see output.ledger_only")
+    """What holds energy over t, what contacts and supports have dissipated, the work of loads and
+    drives, and the sum less that work, which is constant."""
     panel = run.over_time("energy [J]")
-    try:
-        parts = mechanical_energy(run.result.scenario, run.result.arrays)
-    except KeyError as missing:
-        raise FigureError(f"this run recorded no {missing.args[0]}; see output.ledger_only") from None
+    kinetic, contacts, supports, dissipated, work = (
+        run.column(f"system.{name}") for name in ("kinetic_energy", "contact_energy",
+                                                  "support_energy", "dissipated_energy", "load_work"))
+    parts = {"kinetic": kinetic, "contacts": contacts, "supports": supports,
+             "dissipated": dissipated, "load work": work}
+    shown = {label: values for label, values in parts.items() if values.any()}
+    shown["sum less load work"] = kinetic + contacts + supports + dissipated - work
     panel.curves = [run.curve(values, label, colour)
-                    for colour, (label, values) in enumerate(parts.items())]
+                    for colour, (label, values) in enumerate(shown.items())]
     return [panel]
 
 
@@ -158,12 +181,14 @@ PRESETS: dict[str, tuple[Callable[[Shown], list[Panel]], str]] = {
     "position": (_position, _CYCLES),
     "displacement": (_displacement, _CYCLES),
     "velocity": (_velocity, _CYCLES),
+    "acceleration": (_acceleration, _CYCLES),
     "force": (lambda run: [force(run)], _CYCLES),
     "deformation-velocity": (lambda run: [deformation_velocity(run)], _CYCLES),
     "hysteresis": (lambda run: [hysteresis(run)], _CYCLES),
     "restitution": (_restitution, "o asked for, × had"),
     "iterations": (_iterations, ""),
     "energy": (_energy, ""),
+    "supports": (_supports, ""),
     "force-map": (lambda run: _forces(run, Kind.MAP), ""),
     "velocity-map": (lambda run: _velocities(run, Kind.MAP), ""),
     "force-waterfall": (lambda run: _forces(run, Kind.WATERFALL), ""),

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 #: A number that the ledger tells of a cycle.
 OfCycle = Callable[[job_pb2.Cycle], float]
 
+# What the first servers did not record of bodies and supports, and all of the system.
+_LATER = (".acceleration", ".support_force", ".support_energy")
+
 FEW_SAMPLES = 10  #: A cycle with fewer samples than this has no visible shape.
 
 
@@ -61,7 +64,10 @@ class Shown:
     def column(self, name: str) -> Array:
         """The samples of a column, whatever the window."""
         if name not in self.result.arrays:
-            raise FigureError(f"this run recorded no {name}; see output.ledger_only")
+            new = name.startswith("system.") or name.endswith(_LATER)
+            why = ("an older server made it, so run it again" if new and "time" in self.result.arrays
+                   else "see output.ledger_only")
+            raise FigureError(f"this run recorded no {name}; {why}")
         return self.result.arrays[name]
 
     def at(self, column: str, time: float) -> float:

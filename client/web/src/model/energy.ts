@@ -1,4 +1,4 @@
-// Parts of the mechanical energy, by the rules of `contactctl plot energy`.
+// Parts of the mechanical energy from positions, velocities and deformations, which jobs of all servers have.
 
 import type {Series} from '../api/series';
 import type {Load} from '../api/generated/contact/v1/scenario_pb';

@@ -82,9 +82,22 @@ export function axisLabel({base, axes}: Sweep, axis: number): string {
   return label || labelOf(stepsOf(field), ScenarioSchema, '', (list, entry) => ownerIn(base, list, entry)) || field;
 }
 
+/** A metric of samples, such as `series[B1.velocity].max`; empty of others. */
+function seriesLabel([series, pick, ...more]: Step[]): string {
+  if (series?.name !== 'series' || !series.entry || !pick || pick.entry !== undefined || more.length > 0) return '';
+  const dot = series.entry.lastIndexOf('.');
+  const [owner, quantity] = [series.entry.slice(0, Math.max(dot, 0)), series.entry.slice(dot + 1)];
+  const unit = new Map(Object.entries(look.channels)).get(quantity);
+  const word = new Map(Object.entries(look.picks)).get(pick.name);
+  if (!unit || !word) return '';
+  return `${word} ${words(quantity)}${owner && ` of ${owner}`} [${pick.name.startsWith('time_of_') ? 's' : unit}]`;
+}
+
 /** A metric, such as `final velocity of B3 [m/s]`, or its path if the contract does not know that. */
 export function metricLabel(metric: string): string {
   const steps = stepsOf(metric);
+  const series = seriesLabel(steps);
+  if (series) return series;
   const before = {final_bodies: 'final', groups: 'group'}[steps[0]?.name ?? ''] ?? '';
   const own = steps[0]?.name === 'summary' ? steps.slice(1) : steps;
   const owner = (list: string, entry: string) => (/^\d+$/.test(entry) ? `${list}[${entry}]` : entry);
