@@ -34,7 +34,27 @@ TEST(MethodChoice, IsImplicitAfterDampingHasKeptStepsShortInARow) {
 
 TEST(MethodChoice, AnUndampedMotionStaysExplicit) {
   MethodChoice choice;
-  EXPECT_EQ(StepsToImplicit(choice, 0.9), 0);
+  EXPECT_EQ(StepsToImplicit(choice, 0.2), 0);
+}
+
+TEST(MethodChoice, WhereDampingIsFeltTheImplicitMethodIsTriedLater) {
+  MethodChoice choice;
+  EXPECT_EQ(StepsToImplicit(choice, 0.5), 40);
+  for (int i = 0; i < 100; ++i) choice.AfterImplicit(2.1);  // Four times as long as before.
+  EXPECT_TRUE(choice.implicit());
+  choice.AfterImplicit(1.9);
+  EXPECT_FALSE(choice.implicit());
+}
+
+TEST(MethodChoice, ATrialHasTimeToEndWhatExplicitStepsLeave) {
+  MethodChoice choice;
+  StepsToImplicit(choice, 1.1);
+  for (int i = 0; i < 6; ++i) {
+    choice.AfterImplicit(1.5);
+    EXPECT_TRUE(choice.implicit()) << i;
+  }
+  choice.AfterImplicit(1.5);
+  EXPECT_FALSE(choice.implicit());
 }
 
 TEST(MethodChoice, ImplicitStepsGoOnWhileTheyAreLong) {
@@ -54,7 +74,8 @@ TEST(MethodChoice, WhatWasNotWorthItIsTriedLessAndLessOften) {
   int before = 0;
   for (const int expected : {10, 20, 40, 80, 160, 160}) {
     EXPECT_EQ(StepsToImplicit(choice, 5), expected);
-    choice.AfterImplicit(before++ % 2 == 0 ? 4 : 0.1);
+    for (int i = 0; i < 7; ++i) choice.AfterImplicit(before % 2 == 0 ? 4 : 0.1);
+    ++before;
   }
 }
 

@@ -53,7 +53,7 @@ class Cycles {
   /// Sets the scales of a cycle that starts.
   void SetScale(int contact, const CycleHost::Factor& factor);
   /// Makes the scales at least those of a swing by this part of δ_s.
-  void RaiseScale(int contact, double part);
+  void RaiseScale(int contact);
   /// A first step for a cycle [s]: a small part of its duration.
   double FirstStep(int contact) const;
   /// The duration of a cycle that starts [s], from its scales; 0: they are unknown.
