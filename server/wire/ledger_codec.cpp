@@ -40,10 +40,9 @@ static_assert(WireGrowth(Growth::kTooMuch) == v1::Group::TOO_MUCH);
 static_assert(WireGrowth(Growth::kJump) == v1::Group::JUMP);
 static_assert(WireGrowth(Growth::kNoProgress) == v1::Group::NO_PROGRESS);
 
-// −δ̇⁺/δ̇⁻ of a cycle that has both.
-double NewtonRestitution(const Cycle& cycle) {
-  const bool has_both = cycle.approach_velocity > 0 && cycle.end == Cycle::End::kSeparation;
-  return has_both ? -cycle.separation_velocity / cycle.approach_velocity : kNaN;
+// Whether a cycle has both δ̇⁻ and δ̇⁺.
+bool HasNewtonRestitution(const Cycle& cycle) {
+  return cycle.approach_velocity > 0 && cycle.end == Cycle::End::kSeparation;
 }
 
 }  // namespace
@@ -82,7 +81,9 @@ v1::Cycle Encode(const Scenario& scenario, const Cycle& cycle) {
   message.set_tension_time_s(cycle.tension_time);
   message.set_identity_residual(cycle.identity_residual);
   message.set_group(cycle.group);
-  message.set_newton_restitution(NewtonRestitution(cycle));
+  if (HasNewtonRestitution(cycle)) {
+    message.set_newton_restitution(-cycle.separation_velocity / cycle.approach_velocity);
+  }
   return message;
 }
 

@@ -7,7 +7,7 @@ import re
 import unittest
 
 import jsonschema
-from contact.v1 import admin_service_pb2, job_service_pb2
+from contact.v1 import admin_service_pb2, job_service_pb2, model_service_pb2
 from contactd import endless, three_ball_chain
 from gateway import SERVICE, GatewayTest
 
@@ -81,7 +81,7 @@ class OpenApiTest(GatewayTest):
                     self.assertEqual(len({"schema", "content"} & set(parameter)), 1)
 
     def test_document_has_every_route_and_none_other(self):
-        services = [service for module in (job_service_pb2, admin_service_pb2)
+        services = [service for module in (job_service_pb2, admin_service_pb2, model_service_pb2)
                     for service in module.DESCRIPTOR.services_by_name.values()]
         methods = {f"/{service.full_name}/{method.name}": method
                    for service in services for method in service.methods}
@@ -99,7 +99,7 @@ class OpenApiTest(GatewayTest):
             self.assertIn(name, [parameter.get("name") for parameter in get["parameters"]])
 
     def test_schemas_have_every_field_of_the_contract(self):
-        for module in (job_service_pb2, admin_service_pb2):
+        for module in (job_service_pb2, admin_service_pb2, model_service_pb2):
             for name, message in module.DESCRIPTOR.message_types_by_name.items():
                 schema = self.document["components"]["schemas"][name]
                 self.assertEqual(set(schema["properties"]), {f.json_name for f in message.fields})
@@ -107,7 +107,8 @@ class OpenApiTest(GatewayTest):
     def test_requests_of_the_page_for_curl_keep_to_it(self):
         found = list(examples((ROOT / "client" / "curl.md").read_text("utf-8")))
         self.assertEqual({method for method, _ in found},
-                         {"GetServerInfo", "CreateJob", "WatchJob", "GetJob", "GetSeries", "ReadArtifact"})
+                         {"GetServerInfo", "CreateJob", "WatchJob", "GetJob", "GetSeries", "ReadArtifact",
+                          "TranslateModel"})
         for method, request in found:
             with self.subTest(method=method):
                 self.check(f"{method}Request", request)

@@ -54,7 +54,8 @@ class DrawingTest(unittest.TestCase):
         self.assertIn("20 smaller", [text.get_text() for text in ax.get_legend().get_texts()])
 
     def test_every_preset_is_drawn_for_latex_and_in_eighty_characters(self):
-        for preset in PRESETS:
+        newer = {"acceleration", "energy", "supports"}  # Than the server that made the stored run.
+        for preset in set(PRESETS) - newer:
             if not preset.endswith("-map"):  # Which is a bitmap.
                 self.assertIn(rb"\begin{pgfpicture}", self.draw("pgf", preset))
             lines = text(preset_figure(preset, self.run_), 80).splitlines()

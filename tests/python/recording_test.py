@@ -109,8 +109,9 @@ class RecordingTest(unittest.TestCase):
     def test_xarray_has_quantities_over_time_and_body_or_contact_with_units(self):
         result = sample_run()
         data = result.xr
-        self.assertEqual(list(data), ["position", "velocity", "deformation", "deformation_velocity",
-                                      "contact_force", "external_force"])
+        self.assertEqual(list(data)[:6], ["position", "velocity", "deformation",
+                                          "deformation_velocity", "contact_force", "external_force"])
+        self.assertEqual(data.kinetic_energy.dims, ("time",))
         self.assertEqual(data.velocity.dims, ("time", "body"))
         np.testing.assert_array_equal(data.velocity.sel(body="B"), result["B.velocity"])
         np.testing.assert_array_equal(data.contact_force.sel(contact="W"), result["W.contact_force"])

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 #: The names of the presets, for those who check types.
 Preset = Literal[
-    "position", "displacement", "velocity", "force", "deformation-velocity", "hysteresis",
-    "restitution", "iterations", "energy", "force-map", "velocity-map", "force-waterfall",
-    "velocity-waterfall"]
+    "position", "displacement", "velocity", "acceleration", "force", "deformation-velocity",
+    "hysteresis", "restitution", "iterations", "energy", "supports", "force-map", "velocity-map",
+    "force-waterfall", "velocity-waterfall"]
 
 
 class Plots:

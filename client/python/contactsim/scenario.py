@@ -78,9 +78,9 @@ def templates() -> list[str]:
 
 def _folder(source: ScenarioLike) -> pathlib.Path:
     """Where the files are that a scenario names: beside its own file, else where we are."""
-    if isinstance(source, (scenario_pb2.Scenario, Mapping)) or not pathlib.Path(source).is_file():
-        return pathlib.Path()
-    return pathlib.Path(source).parent
+    if isinstance(source, (str, os.PathLike)) and pathlib.Path(source).is_file():
+        return pathlib.Path(source).parent
+    return pathlib.Path()
 
 
 def _template_folder() -> pathlib.Path:

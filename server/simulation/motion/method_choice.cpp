@@ -7,11 +7,8 @@ namespace {
 
 // The explicit method is stable up to λ h near 6; from 1 on it loses its order.
 constexpr double kDamped = 1;
-// From here on a slow motion may already keep steps short: such a step counts this part of one.
-constexpr double kFelt = 0.25, kPart = 0.25;
-// Up to this λ h explicit steps can be as long, and cost a fraction of an implicit one, which takes
-// so many times the evaluations.
-constexpr double kWorth = 5, kDearer = 4;
+// Up to this λ h explicit steps can be as long, and cost a fraction of an implicit one.
+constexpr double kWorth = 5;
 // Steps of a trial: the first ones are as short as the explicit ones, for they end what these have
 // left of the damped motion. Judged by its first step a contact that a sine presses, λ = 3e5/s,
 // took 31,000 steps in 0.2 s at a tolerance of 1e-11, and 160 at 1e-8. MethodChoice.ATrialHasTime….
@@ -24,15 +21,14 @@ constexpr int kMostPatience = 160;
 }  // namespace
 
 void MethodChoice::AfterExplicit(double damping) {
-  short_steps_ = damping > kDamped ? short_steps_ + 1 : damping > kFelt ? short_steps_ + kPart : 0;
-  explicit_ = damping;
+  short_steps_ = damping > kDamped ? short_steps_ + 1 : 0;
   implicit_ = short_steps_ >= patience_;
   implicit_steps_ = 0;
 }
 
 // Where it gains nothing, as beside a contact that swings fast, it is tried less and less often.
 void MethodChoice::AfterImplicit(double damping) {
-  implicit_ = damping >= std::min(kWorth, kDearer * explicit_) || implicit_steps_ < kTrial;
+  implicit_ = damping >= kWorth || implicit_steps_ < kTrial;
   if (implicit_) {
     ++implicit_steps_;
   } else {

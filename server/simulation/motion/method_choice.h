@@ -23,10 +23,8 @@ class MethodChoice {
 
   bool implicit_ = false;
   int patience_ = kPatience;
-  // Such steps so far, those that damping hardly shortens as parts.
-  double short_steps_ = 0;
-  // λ h of the last explicit step.
-  double explicit_ = 0;
+  // Such steps so far.
+  int short_steps_ = 0;
   // Steps of the implicit method since it is in use.
   int implicit_steps_ = 0;
 };

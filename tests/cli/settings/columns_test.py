@@ -23,7 +23,7 @@ class ColumnsTest(CliTest):
         lines = self.run_it("list", "-o", "csv", "--columns", "labels,state,reason")[0]
         self.assertEqual(lines, "labels,state,reason\na=b,SUCCEEDED,\n")
         self.assertEqual(self.header("list", "-o", "csv"),
-                         "job,state,title,reason,convergence,missed,created,ended,labels,cycles,"
+                         "job,state,title,kind,reason,convergence,missed,created,ended,labels,cycles,"
                          "attempt")
 
     def test_ledger_has_them_and_the_rest_stays(self):

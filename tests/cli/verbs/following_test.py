@@ -75,8 +75,8 @@ class FollowingTest(CliTest):
                          [0.5, 0.5])
         self.assertIn("did you mean 'two-balls'?",
                       self.run_it("run", "-t", "two-bals", code=2)[1])
-        self.assertIn("contactctl init table-3-sweep",
-                      self.run_it("submit", "-t", "table-3-sweep", code=2)[1])
+        self.assertIn("contactctl sweep run -t table-3-sweep",
+                      self.run_it("run", "-t", "table-3-sweep", code=2)[1])
         self.run_it("run", CHAIN, "-t", "two-balls", code=2)
 
     def test_lists_are_for_programs_too(self):

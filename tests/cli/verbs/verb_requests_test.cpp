@@ -79,7 +79,7 @@ TEST_F(VerbRequestsTest, EachFormatOfListHasEveryJob) {
   EXPECT_EQ(json::parse(objects[3])["labels"]["law"], "flores");
   const std::vector<std::string> rows = Lines(Run({"list", "-o", "csv"}).printed);
   ASSERT_EQ(rows.size(), 5U);
-  EXPECT_THAT(rows[0], testing::StartsWith("job,state,title,reason,convergence,missed,"));
+  EXPECT_THAT(rows[0], testing::StartsWith("job,state,title,kind,reason,convergence,missed,"));
   EXPECT_THAT(rows[4], HasSubstr("law=flores"));
 }
 
@@ -90,8 +90,8 @@ TEST_F(VerbRequestsTest, ListTellsTitleAndMissedCycles) {
   job.mutable_summary()->set_cycles(249);
   job.mutable_summary()->set_cycles_infeasible(3);
   EXPECT_THAT(Lines(Run({"list"}).printed).back(),
-              MatchesRegex("a +SUCCEEDED  A title that is longer than forty chara…  - +PARTIAL +3 "
-                           ".*"));
+              MatchesRegex("a +SUCCEEDED  A title that is longer than forty chara…  scenario  - +PARTIAL "
+                           "+3 .*"));
   EXPECT_THAT(Run({"list", "-o", "csv", "--columns", "title,missed"}).printed,
               "title,missed\nA title that is longer than forty characters are,3\n");
   EXPECT_EQ(json::parse(Run({"list", "-o", "json"}).printed)["jobs"][0]["title"], job.title());
