@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 _LEDGER = ("contact", "number", "group", "kind", "end", "status", "mu", "restitution_in",
            "restitution_out", "start_time_s", "end_time_s", "peak_force_n")
+# Quantities of the system as a whole.
+_OF_SYSTEM = ("kinetic_energy", "contact_energy", "support_energy", "dissipated_energy", "load_work")
 
 
 class NoChannel(KeyError):
@@ -83,9 +85,9 @@ class Result:
 
     @functools.cached_property
     def xr(self) -> xarray.Dataset:
-        """The trajectory over `time` and `body` or `contact`, with units as attributes:
-        `xr.velocity.sel(body="B1")`, `xr.contact_force.sel(contact="B1-B2")`. A copy, as `series` is.
-        Needs xarray."""
+        """The trajectory over `time` and `body`, `contact` or `support`, with units as attributes:
+        `xr.velocity.sel(body="B1")`, `xr.contact_force.sel(contact="B1-B2")`; energies of the system over
+        `time`. A copy, as `series` is. Needs xarray."""
         import xarray  # Only who asks for it needs it.
 
         bodies = {body.name for body in self.scenario.bodies}
@@ -93,7 +95,13 @@ class Result:
         variables: dict[str, Any] = {}
         for quantity in dict.fromkeys(quantity for _, _, quantity in named):
             owners = [owner for owner, _, other in named if other == quantity]
-            dimension = "body" if bodies.issuperset(owners) else "contact"
+            if owners == ["system"] and quantity in _OF_SYSTEM:
+                variables[quantity] = ("time", self[f"system.{quantity}"], {"units": "J"})
+                continue
+            if quantity == "support_energy":  # That of the system is their sum.
+                owners.remove("system")
+            dimension = "body" if bodies.issuperset(owners) else \
+                "support" if quantity.startswith("support_") else "contact"
             columns = [f"{owner}.{quantity}" for owner in owners]
             variables[quantity] = xarray.DataArray(
                 np.column_stack([self.arrays[column] for column in columns]),
