@@ -131,7 +131,7 @@ class ExportFormsTest(CliTest):
         for name, texts in exact.items():
             for text, short in zip(texts, rounded[name]):
                 try:
-                    self.assertEqual(float(short), float(f"{float(text):.4g}"), name)
+                    np.testing.assert_equal(float(short), float(f"{float(text):.4g}"), name)
                 except ValueError:
                     self.assertEqual(short, text)
         line = self.run_it("export", self.name, "-o", "jsonl", "--table", "cycles", "--precision",

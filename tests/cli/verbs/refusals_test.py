@@ -118,7 +118,7 @@ class RefusalsOfAServer(CliTest):
         self.assertEqual(self.server.get(later).spec_sha256, self.server.get(shipped).spec_sha256)
         kinds = self.run_it("list", "-o", "csv", "--columns", "job,kind")[0].splitlines()
         for name in (sweep, later, shipped):
-            self.assertIn(f"{name},sweep", kinds)
+            self.assertIn(f"{name.removeprefix('jobs/')},sweep", kinds)
         self.assertIn("there is no cell 2; the last is 1",
                       self.refused("sweep", "cell", sweep, 2, code=2))
 

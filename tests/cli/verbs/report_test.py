@@ -53,7 +53,7 @@ class ReportTest(CliTest):
         page = self.report(name)
         self.check_is_offline(page)
         self.assertLess(len(page), 300_000)
-        self.assertEqual(page.count("<svg"), 8)
+        self.assertEqual(page.count("<svg"), 9)
         job = self.server.get(name)
         for words in ("Triple-ball chain", "CONVERGED", job.spec_sha256, job.server_version,
                       "2.259378e+08", "run --like " + name, "Momentum", "Iteration of μ",
@@ -79,7 +79,7 @@ class ReportTest(CliTest):
         page = self.report(self.solve(CHAIN), self.solve(CHAIN, "--set", "title=<b>&"))
         self.check_is_offline(page)
         self.assertIn("Where they differ", page)
-        self.assertEqual(page.count("<svg"), 17)  # One with both.
+        self.assertEqual(page.count("<svg"), 19)  # One with both.
         self.assertIn("&lt;b&gt;&amp;", page)
         self.assertNotIn("<b>&", page)
 

@@ -90,7 +90,8 @@ ScenarioSource::Spec ScenarioSource::Read(Client& client) const {
   RequireNoTemplate(file_);
   const std::string text = ReadYaml(file_);
   if (IsSweep(text)) return ReadSweep(file_, text, ParseVariables(variables_));
-  return ScenarioFile(file_ == "-" ? "<stdin>" : file_, text, ParseVariables(variables_));
+  return ScenarioFile(file_ == "-" ? "<stdin>" : file_, text, ParseVariables(variables_),
+                      std::filesystem::path(file_).parent_path().string());
 }
 
 ScenarioSource::Spec ScenarioSource::ReadJob(Client& client) const {
