@@ -87,9 +87,8 @@ TEST(Contract, FieldTextEndsWithTheRules) {
       "characters.");
   EXPECT_NE(text("Contact", "stiffness").find("Unit: N/m^exponent. Range: (0, 1e30]."),
             std::string::npos);
-  EXPECT_NE(
-      text("Load.Table", "points").find("At least 2 entries. At most 10000 entries."),
-      std::string::npos);
+  EXPECT_NE(text("Load.Table", "points").find("At least 2 entries. At most 10000 entries."),
+            std::string::npos);
   EXPECT_EQ(text("Solver", "tension"), "Treatment of pulling forces. Default: ALLOW.");
 }
 
