@@ -204,7 +204,7 @@ class CommandsTest(ServerTest):
         self.assertGreater(count, 90)
 
     def test_curl_page(self):
-        self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 8)
+        self.assertEqual(self.shell(ROOT / "client" / "curl.md"), 9)
 
     def test_julia_page(self):
         self.assertEqual(self.shell(ROOT / "client" / "julia.md"), 4)
