@@ -43,6 +43,12 @@ def everything():
                 velocity_m_per_s=1.0, points=[
                     motion.AccelerationTable.Point(time_s=0.0, acceleration_m_per_s2=0.0),
                     motion.AccelerationTable.Point(time_s=1e-3, acceleration_m_per_s2=1.0)]))),
+            body(name="J", motion=motion(position_table=motion.PositionTable(
+                times_s=[0.0, 1e-3], positions_m=[0.0, 1.0]))),
+            body(name="K", motion=motion(velocity_table=motion.VelocityTable(
+                times_s=[0.0, 1e-3], velocities_m_per_s=[0.0, 1.0]))),
+            body(name="L", motion=motion(acceleration_table=motion.AccelerationTable(
+                times_s=[0.0, 1e-3], accelerations_m_per_s2=[0.0, 1.0]))),
         ],
         contacts=[
             contact(between=["A", "B"], restitution=0.8),
@@ -54,7 +60,9 @@ def everything():
                     clearance_m=1.0, stiffness=1e8, restitution=0.8),
         ],
         supports=[scenario_pb2.Support(body="A", stiffness_n_per_m=1e3, damping_n_s_per_m=1.0,
-                                       rest_position_m=0.1)],
+                                       rest_position_m=0.1, higher_stiffness=[1.0, 1e3]),
+                  scenario_pb2.Support(body="B", stiffness_n_per_m=1e3, rest_position_m=1.0,
+                                       slip_force_n=10.0)],
         loads=[
             load(body="A", constant=load.Constant(force_n=1.0)),
             load(body="A", sine=load.Sine(amplitude_n=1.0, angular_frequency_rad_per_s=10.0,
@@ -69,6 +77,8 @@ def everything():
             load(body="A", table=load.Table(points=[
                 load.Table.Point(time_s=0.0, force_n=0.0),
                 load.Table.Point(time_s=1e-3, force_n=1.0)])),
+            load(body="A", table=load.Table(times_s=[0.0, 1e-3], forces_n=[0.0, 1.0],
+                                            period_s=2e-3)),
         ],
         solver=scenario_pb2.Solver(
             method=scenario_pb2.Solver.RK4, step_s=1e-6, relative_tolerance=1e-11,
@@ -79,7 +89,7 @@ def everything():
 
 
 def numbers(message, path=""):
-    """(message, field, path) of every number in it; of repeated messages, of each."""
+    """(message, field, path) of every number in it; of what is repeated, of each."""
     for field in message.DESCRIPTOR.fields:
         here = f"{path}.{field.name}"
         repeated = field.label == field.LABEL_REPEATED
@@ -90,7 +100,18 @@ def numbers(message, path=""):
             elif message.HasField(field.name):
                 yield from numbers(getattr(message, field.name), here)
         elif field.cpp_type == field.CPPTYPE_DOUBLE or field.cpp_type in INTEGERS:
-            yield message, field, here
+            for i in range(len(getattr(message, field.name)) if repeated else 0):
+                yield message, field, f"{here}[{i}]"
+            if not repeated:
+                yield message, field, here
+
+
+def put(message, field, path, value):
+    """Gives one of the numbers, as they are named above, another value."""
+    if field.label == field.LABEL_REPEATED:
+        getattr(message, field.name)[int(path.rpartition("[")[2][:-1])] = value
+    else:
+        setattr(message, field.name, value)
 
 
 def allows(field, value):
@@ -130,7 +151,7 @@ class HostileValuesTest(ServerTest):
             for value in INTEGERS.get(field.cpp_type, DOUBLES):
                 scenario = everything()
                 message, _, _ = list(numbers(scenario))[position]
-                setattr(message, field.name, value)
+                put(message, field, path, value)
                 found = self.violations(scenario)
                 with self.subTest(field=path, value=value):
                     if not allows(field, value):

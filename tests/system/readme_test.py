@@ -87,7 +87,13 @@ class ReadmeTest(unittest.TestCase):
         messages = re.search(r"kAllBytes = std::size_t\{(\d+)\} << 20", budgets).group(1)
         columns = (SERVER / "wire/chunk_columns.h").read_text("utf-8")
         chunk = re.search(r"kMostChunkBytes = std::size_t\{(\d+)\} << 20", columns).group(1)
+        loads = (SERVER / "wire/scenario/load_codec.cpp").read_text("utf-8")
+        pieces = re.search(r"kMostPieces = ([\d']+)", loads).group(1)
+        table = (ROOT / "proto/contact/v1/scenario.proto").read_text("utf-8")
+        table_rows = re.search(r"times_s = 2 \[.*max_entries: (\d+)", table).group(1)
         self.assertEqual(told, {
+            "rows of a table of a load or motion": float(table_rows),
+            "pieces of tables with a period until the end of the run": float(pieces.replace("'", "")),
             "streams of a connection": float(streams),
             "frames of a connection in a second that move no bytes and ask nothing":
                 float(free.replace("'", "")),

@@ -16,7 +16,7 @@ namespace {
 
 using Pick = SeriesMetric::Pick;
 
-constexpr std::array<std::pair<std::string_view, Pick>, 6> kPicks{
+constexpr std::array<std::pair<std::string_view, Pick>, 6> kSeriesPicks{
     {{"first", Pick::kFirst},
      {"last", Pick::kLast},
      {"max", Pick::kMax},
@@ -29,7 +29,7 @@ constexpr char kHow[] =
 
 std::string HintFor(const std::string& word) {
   std::vector<std::string_view> words;
-  for (const auto& [name, pick] : kPicks) words.push_back(name);
+  for (const auto& [name, pick] : kSeriesPicks) words.push_back(name);
   return DidYouMean(word, words, kHow);
 }
 
@@ -43,7 +43,7 @@ std::optional<SeriesMetric> FindSeriesMetric(std::span<const PathStep> steps,
     rules.Break("", Quoted(text) + " names no number of a channel", kHow);
     return std::nullopt;
   }
-  for (const auto& [word, pick] : kPicks) {
+  for (const auto& [word, pick] : kSeriesPicks) {
     if (steps.size() == 2 && IsPlain(steps[1]) && steps[1].name == word) {
       return SeriesMetric{steps.front().key, pick};
     }
