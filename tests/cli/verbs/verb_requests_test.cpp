@@ -89,9 +89,10 @@ TEST_F(VerbRequestsTest, ListTellsTitleAndMissedCycles) {
   job.set_convergence(v1::Job::PARTIAL);
   job.mutable_summary()->set_cycles(249);
   job.mutable_summary()->set_cycles_infeasible(3);
-  EXPECT_THAT(Lines(Run({"list"}).printed).back(),
-              MatchesRegex("a +SUCCEEDED  A title that is longer than forty chara…  scenario  - +PARTIAL "
-                           "+3 .*"));
+  EXPECT_THAT(
+      Lines(Run({"list"}).printed).back(),
+      MatchesRegex("a +SUCCEEDED  A title that is longer than forty chara…  scenario  - +PARTIAL "
+                   "+3 .*"));
   EXPECT_THAT(Run({"list", "-o", "csv", "--columns", "title,missed"}).printed,
               "title,missed\nA title that is longer than forty characters are,3\n");
   EXPECT_EQ(json::parse(Run({"list", "-o", "json"}).printed)["jobs"][0]["title"], job.title());
