@@ -36,9 +36,9 @@ Result<Response> Answer(const v1::TranslateModelRequest& request, const Abandone
   if (decoded.from != nullptr) AddRebounds(decoded, abandoned, &response, &wanted);
   if (abandoned()) return MakeError(Reason::kDeadlineExceeded);
   const translate::Setup& setup = decoded.setups.front();
+  if (!decoded.targets.empty() && !(wanted.restitution > 0)) return NothingComesBack();
   for (const translate::Tool* tool : decoded.targets) {
     if (abandoned()) return MakeError(Reason::kDeadlineExceeded);
-    if (!(wanted.restitution > 0)) return NothingComesBack();
     *response.add_translations() =
         EncodeTranslation(Translate(*tool, wanted, setup), setup.collision.velocity);
   }

@@ -11,6 +11,7 @@
 #include "cli/base/scalar.h"
 #include "cli/base/unit.h"
 #include "cli/input/yaml_place.h"
+#include "wire/column_name.h"
 #include "wire/rules/field_path.h"
 
 namespace contact::cli {
@@ -19,15 +20,6 @@ namespace {
 using google::protobuf::FieldDescriptor;
 
 constexpr char kTimes[] = "times_s";
-
-// The SI unit that the name of a list of values ends with.
-std::string UnitOf(const FieldDescriptor& values) {
-  const std::string& name = values.name();
-  return name.ends_with("_m_per_s2")  ? "m/s^2"
-         : name.ends_with("_m_per_s") ? "m/s"
-         : name.ends_with("_m")       ? "m"
-                                      : "N";
-}
 
 void Store(const std::vector<double>& numbers, const FieldDescriptor& field,
            google::protobuf::Message* message) {
@@ -55,7 +47,8 @@ class FileTables::Request {
     const double shift = Number("shift_s", 0);
     std::vector<double> t = Numbers(*table, *times, "time_unit", "s", 1);
     for (double& time : t) time += shift;
-    std::vector<double> v = Numbers(*table, *values, "unit", UnitOf(of_values), Number("scale", 1));
+    const std::string unit(ColumnOf(of_values).unit);
+    std::vector<double> v = Numbers(*table, *values, "unit", unit, Number("scale", 1));
     for (const Diagnostic& mistake : mistakes_) Add(mistake);
     if (failed_) return;
     const double first = t.front();

@@ -52,7 +52,7 @@ class Cycles {
   void ResetWorks(int contact);
   /// Sets the scales of a cycle that starts.
   void SetScale(int contact, const CycleHost::Factor& factor);
-  /// Makes the scales at least those of a swing by this part of δ_s.
+  /// Makes the scales at least those of a swing by a small part of δ_s.
   void RaiseScale(int contact);
   /// A first step for a cycle [s]: a small part of its duration.
   double FirstStep(int contact) const;

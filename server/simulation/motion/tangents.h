@@ -43,7 +43,7 @@ class Tangents {
   void Prepare() { linked_.Count(); }
 
   /// Follows a step of the motion from θ = `from` to `to`. `paths` are the deformations of the
-  /// active contacts and the stretches of the supports that are not linear, in their order.
+  /// active contacts, then the stretches of the supports that have k₂, k₃, …, in their order.
   void Follow(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
               double to);
   /// The work of a contact is counted from this instant on.

@@ -151,7 +151,7 @@ TEST(Clusters, SamplesAreThoseOfAllTogether) {
   ASSERT_EQ(parts.rows(), 301);
   ASSERT_EQ(whole.rows(), 301);
   const int forces = static_cast<int>(1 + 2 * s.bodies.size());
-  const int rest = static_cast<int>(forces + 4 * s.contacts.size());
+  const int rest = forces + 4 * static_cast<int>(s.contacts.size());
   for (int row = 0; row < 301; ++row) {
     for (int column = 0; column < parts.columns; ++column) {
       const bool is_force = column >= forces && column < rest && (column - forces) % 4 >= 2;
