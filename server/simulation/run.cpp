@@ -9,6 +9,7 @@
 #include "simulation/course/cut_cycles.h"
 #include "simulation/course/telling.h"
 #include "simulation/course/whereabouts.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/sampler.h"
 
@@ -114,7 +115,7 @@ class Runner {
     double energy = 0;
     for (std::size_t c = 0; c < scenario_.contacts.size(); ++c) {
       const ContactState& state = run_.state.contacts[c];
-      if (StartsPressed(state)) energy += ElasticEnergy(scenario_.contacts[c], -state.gap);
+      if (StartsPressed(state)) energy += ElasticEnergy(scenario_.contacts[c], -state.gap, 0);
     }
     return energy;
   }

@@ -44,13 +44,14 @@ FixedFactors Pass(const Scenario& scenario, const std::vector<double>& mu) {
   return host;
 }
 
-// The true sensitivities of each cycle's works to each μ, against central differences.
-void ExpectFiniteDifferences(Scenario scenario) {
+// The true sensitivities of each cycle's works to each μ that is not 0, against central
+// differences.
+void ExpectFiniteDifferences(Scenario scenario, const std::vector<double>& mu = {2.2e8, 4.5e8}) {
   scenario.solver.relative_tolerance = 1e-13;
-  const std::vector<double> mu = {2.2e8, 4.5e8};
   const FixedFactors base = Pass(scenario, mu);
-  ASSERT_EQ(base.works.size(), 4u);
-  for (int column = 0; column < 2; ++column) {
+  ASSERT_EQ(base.works.size(), 2 * mu.size());
+  for (int column = 0; column < std::ssize(mu); ++column) {
+    if (mu[static_cast<std::size_t>(column)] == 0) continue;
     const double step = 1e-4 * mu[static_cast<std::size_t>(column)];
     std::vector<double> plus = mu, minus = mu;
     plus[static_cast<std::size_t>(column)] += step;
@@ -83,6 +84,15 @@ TEST(Sensitivities, AgreeWithFiniteDifferencesBesideSpringsThatSlip) {
   s.supports = {{.body = 1, .other = 0, .stiffness = 1e6, .rest_position = 0.1, .slip_force = 10},
                 {.body = 2, .stiffness = 1e6, .rest_position = 0.2, .slip_force = 20}};
   ExpectFiniteDifferences(s);
+}
+
+// The way back of the second begins while both others are closed, whose μ decide where.
+TEST(Sensitivities, AgreeWithFiniteDifferencesBesideATableThatYields) {
+  Scenario s = testing::Chain({2, 1, 0.5, 0.2}, {1e8, 1e8, 1e8}, {0.8, 1, 0.7}, 0.2, 4e-3);
+  s.contacts[1].damping = DampingLaw::kForceTable;
+  s.contacts[1].table = ForceTable({{1e-5, 10}, {1e-3, 1000}}, {2e6, 2e3});
+  s.contacts[1].stiffness = 1e6, s.contacts[1].exponent = 1;
+  ExpectFiniteDifferences(s, {2.2e8, 0, 4.5e8});
 }
 
 TEST(Episode, AnIsolatedCollisionNeedsNoCorrection) {

@@ -125,6 +125,12 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
   Scenario paper = testing::SpringWall();
   paper.solver.update = UpdateRule::kPaperRatio;
   all.emplace_back("paper", paper);
+  Scenario yields = BallThatComesToRest();
+  yields.contacts[0].damping = DampingLaw::kForceTable;
+  yields.contacts[0].stiffness = 2e5, yields.contacts[0].exponent = 1;
+  yields.contacts[0].table = ForceTable({{1e-4, 10}, {1e-3, 200}}, {1e6, 500});
+  yields.end_time = 0.3;
+  all.emplace_back("table that yields", yields);
   for (auto& [name, scenario] : all) scenario.sample_interval = scenario.end_time / 700;
   for (std::size_t i = 0; i < 6; ++i) {
     all.emplace_back(all[i].first + ", sampled in cycles", all[i].second);

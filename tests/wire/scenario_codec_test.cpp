@@ -131,6 +131,28 @@ TEST(DecodeScenario, TakesEveryFieldFromTheMessage) {
   EXPECT_EQ(s.samples_per_contact, 60);
 }
 
+void GiveTable(v1::Scenario* message) {
+  v1::Contact& contact = *message->mutable_contacts(0);
+  contact.clear_stiffness(), contact.clear_restitution();
+  contact.set_damping(v1::Contact::FORCE_TABLE);
+  v1::ForceTable& table = *contact.mutable_force_table();
+  for (const double part : {1, 3})
+    table.add_deformations_m(part * 1e-4), table.add_forces_n(part * part);
+}
+
+TEST(DecodeScenario, ForceTableIsReadWithItsWayBack) {
+  v1::Scenario message = TwoBalls();
+  GiveTable(&message);
+  const auto read = [&] { return DecodeScenario(message).scenario.contacts.at(0); };
+  EXPECT_FALSE(read().table.yields());
+  EXPECT_NEAR(read().table.At(2e-4, 0).value, 5, 1e-12);
+  EXPECT_NEAR(read().stiffness, 9 / 3e-4, 1e-9);
+  EXPECT_EQ(read().exponent, 1);
+  message.mutable_contacts(0)->mutable_force_table()->set_unloading_stiffness_n_per_m(5e4);
+  message.mutable_contacts(0)->mutable_force_table()->set_unloading_stiffening_per_m(1e3);
+  EXPECT_NEAR(read().table.At(2e-4, 3e-4).value, 9 - 5.9e4 * 1e-4, 1e-12);
+}
+
 TEST(DecodeScenario, EveryDampingIsRead) {
   const auto& dampings = *google::protobuf::GetEnumDescriptor<v1::Contact::Damping>();
   std::set<DampingLaw> laws;
@@ -142,6 +164,7 @@ TEST(DecodeScenario, EveryDampingIsRead) {
     const bool linear = damping == v1::Contact::KELVIN_VOIGT || damping == v1::Contact::DASHPOT;
     if (linear) message.mutable_contacts(0)->set_exponent(1);
     if (damping == v1::Contact::DASHPOT) message.mutable_contacts(0)->set_damping_n_s_per_m(1);
+    if (damping == v1::Contact::FORCE_TABLE) GiveTable(&message);
     EXPECT_THAT(LinesOf(message), IsEmpty());
     laws.insert(DecodeScenario(message).scenario.contacts.at(0).damping);
   }

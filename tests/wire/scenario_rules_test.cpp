@@ -18,6 +18,13 @@ struct Case {
 std::vector<Case> Cases() {
   using S = v1::Scenario;
   const auto contact = [](S& s) -> v1::Contact& { return *s.mutable_contacts(0); };
+  const auto table = [](S& s) -> v1::ForceTable& {
+    v1::Contact& c = *s.mutable_contacts(0);
+    c.clear_stiffness(), c.clear_exponent(), c.clear_restitution();
+    c.set_damping(v1::Contact::FORCE_TABLE);
+    c.mutable_force_table()->add_deformations_m(1e-4), c.mutable_force_table()->add_forces_n(5);
+    return *c.mutable_force_table();
+  };
   return {
       {"TitleOf200Characters",
        [](S& s) {
@@ -266,6 +273,59 @@ std::vector<Case> Cases() {
        [&](S& s) { contact(s).set_damping_n_s_per_m(1); },
        {"contacts[0].damping_n_s_per_m: is given, but goes only with damping DASHPOT — remove "
         "damping_n_s_per_m, or set damping: DASHPOT"}},
+      {"TableOfForces", [&](S& s) { table(s).set_unloading_stiffness_n_per_m(5e4); }, {}},
+      {"TableThatIsMissing",
+       [&](S& s) { table(s), contact(s).clear_force_table(); },
+       {"contacts[0].force_table: is missing; damping FORCE_TABLE needs it"}},
+      {"TableWithAnotherDamping",
+       [&](S& s) { contact(s).mutable_force_table(); },
+       {"contacts[0].force_table: is given, but goes only with damping FORCE_TABLE — remove "
+        "force_table, or set damping: FORCE_TABLE"}},
+      {"TableBesideOtherNumbers",
+       [&](S& s) {
+         table(s), contact(s).set_stiffness(1), contact(s).set_exponent(1);
+         contact(s).set_restitution(1), contact(s).set_reference_velocity_m_per_s(1);
+       },
+       {"contacts[0].stiffness: is given beside damping FORCE_TABLE — remove it; force_table says "
+        "all",
+        "contacts[0].exponent: is given beside damping FORCE_TABLE — remove it; force_table says "
+        "all",
+        "contacts[0].restitution: is given beside damping FORCE_TABLE — remove it; force_table "
+        "says all",
+        "contacts[0].reference_velocity_m_per_s: is given beside damping FORCE_TABLE — remove it; "
+        "force_table says all"}},
+      {"TableWithoutPoints",
+       [&](S& s) { table(s).Clear(); },
+       {"contacts[0].force_table.deformations_m: is missing — one point is a straight line"}},
+      {"TableWithTooFewForces",
+       [&](S& s) { table(s).add_deformations_m(2e-4); },
+       {"contacts[0].force_table.forces_n: has 1 entries; deformations_m has 2 — give a force for "
+        "each deformation"}},
+      {"TableThatGoesBack",
+       [&](S& s) {
+         v1::ForceTable& t = table(s);
+         t.add_deformations_m(1e-4), t.add_forces_n(6);
+       },
+       {"contacts[0].force_table.deformations_m[1]: is 0.0001; must be above 0.0001, the one "
+        "before — a plateau is a slight slope"}},
+      {"TableWithAPlateau",
+       [&](S& s) {
+         v1::ForceTable& t = table(s);
+         t.add_deformations_m(2e-4), t.add_forces_n(5);
+       },
+       {"contacts[0].force_table.forces_n[1]: is 5; must be above 5, the one before — a plateau is "
+        "a slight slope"}},
+      {"TableFromBelowZero",
+       [&](S& s) { table(s).set_forces_n(0, -5); },
+       {"contacts[0].force_table.forces_n[0]: is -5; must be in (0, 1e+15]"}},
+      {"TableThatMakesEnergy",
+       [&](S& s) { table(s).set_unloading_stiffness_n_per_m(4e4); },
+       {"contacts[0].force_table.unloading_stiffness_n_per_m: is 40000; must be at least 50000, "
+        "the steepest slope of the points — a way back above the way there would make energy"}},
+      {"TableThatStiffensNoWayBack",
+       [&](S& s) { table(s).set_unloading_stiffening_per_m(1); },
+       {"contacts[0].force_table.unloading_stiffening_per_m: is given without "
+        "unloading_stiffness_n_per_m — it adds to that stiffness"}},
       {"KelvinVoigt",
        [&](S& s) { contact(s).set_damping(v1::Contact::KELVIN_VOIGT); },
        {"contacts[0].exponent: is 1.5; damping KELVIN_VOIGT needs 1 — set exponent: 1"}},

@@ -27,6 +27,7 @@ class ContactLaw:
     stiffness: float  #: N/m^exponent
     exponent: float
     damping_exponent: float  #: Of δ in the damping force.
+    tabled: bool  #: The force is a table; stiffness and exponent are those of a line to its last point.
     wall_touch: float | None  #: Centre of the body when it touches a wall that stands still, in m.
 
 
@@ -56,20 +57,25 @@ def contact_laws(scenario: scenario_pb2.Scenario) -> list[ContactLaw]:
     bodies = {body.name: body for body in scenario.bodies}
     laws = []
     for contact in scenario.contacts:
-        exponent = contact.exponent if contact.HasField("exponent") else 1.5
+        tabled = contact.damping == scenario_pb2.Contact.FORCE_TABLE
+        exponent = contact.exponent if contact.HasField("exponent") else 1.0 if tabled else 1.5
         damping = _DAMPING_EXPONENTS.get(contact.damping, exponent)
         for name, pair in zip(contact_names(contact), contact_pairs(contact)):
             touching = [bodies[body] for body in pair]
             laws.append(ContactLaw(name, pair, _stiffness(contact, touching), exponent, damping,
-                                   _wall_touch(contact, touching[0], name)))
+                                   tabled, _wall_touch(contact, touching[0], name)))
     return laws
 
 
 def _stiffness(contact: scenario_pb2.Contact, bodies: Sequence[scenario_pb2.Body]) -> float:
-    """As given, or that of Hertz, which follows from materials and radii."""
+    """As given, of a table the line to its last point, or that of Hertz, which follows from materials and radii."""
     if contact.HasField("stiffness"):
         given: float = contact.stiffness
         return given
+    if contact.damping == scenario_pb2.Contact.FORCE_TABLE:
+        table = contact.force_table
+        line: float = table.forces_n[-1] / table.deformations_m[-1]
+        return line
     compliance = _compliance(contact.wall.material) if contact.HasField("wall") else 0.0
     compliance = sum((_compliance(body.material) for body in bodies), compliance)
     curvature = sum(1 / body.radius_m for body in bodies)

@@ -124,7 +124,7 @@ void serialize(Archive& archive, ContactState& c) {
   archive(c.work, c.external_work, c.column, c.peak, c.cycle, c.imbalance);
   archive(c.encounter, c.member);
   archive(c.largest_motion, c.largest_speed, c.woken, c.released, c.start_velocity, c.rest_until,
-          c.rest_mark);
+          c.rest_mark, c.stored, c.yield);
 }
 
 template <class Archive>

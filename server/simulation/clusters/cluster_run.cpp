@@ -7,6 +7,7 @@
 
 #include "simulation/clusters/cluster_state.h"
 #include "simulation/course/telling.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -421,8 +422,10 @@ double ClusterRun::Energy() const {
   }
   double energy = KineticEnergy(scenario_, velocities);
   for (int c = 0; c < std::ssize(scenario_.contacts); ++c) {
-    if (!InTouch(world_.contacts()[At(c)].phase)) continue;
-    energy += ElasticEnergy(scenario_.contacts[At(c)], -world_.DistanceAt(c, run_.state.time).gap);
+    const ContactState& state = world_.contacts()[At(c)];
+    if (!InTouch(state.phase)) continue;
+    energy += ElasticEnergy(scenario_.contacts[At(c)], -world_.DistanceAt(c, run_.state.time).gap,
+                            state.yield);
   }
   return energy;
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "simulation/course/telling.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -18,7 +19,8 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
       places_(scenario_.bodies.size()),
       velocities_(scenario_.bodies.size()),
       accelerations_(scenario_.bodies.size()),
-      forces_(scenario_.contacts.size()) {
+      forces_(scenario_.contacts.size()),
+      yields_(scenario_.contacts.size()) {
   for (const Load& load : scenario_.loads) {
     if (!scenario_.bodies[At(load.body)].fixed) loads_[At(load.body)] += load.constant;
   }
@@ -56,13 +58,16 @@ void Frames::FindForces(double instant, const Pieces& pieces) {
     accelerations_[b] = world_.Acceleration(static_cast<int>(b));
   }
   std::ranges::fill(forces_, 0);
+  std::ranges::fill(yields_, 0);
   for (const auto& [number, piece] : pieces) {
     if (piece->begins() > instant || piece->ends() < instant) continue;
     for (const Trace::Pressed& pressed : piece->trace.PressedIn(piece->trace.StepAt(instant))) {
       double& force = forces_[At(pressed.contact)];
       if (force != 0) continue;  // Where one piece ends and the next begins.
       const double rate = equations_.Relative(pressed.contact, velocities_.data());
-      const ActiveContact active = equations_.Activate(pressed.contact, 0, pressed.mu, kNone);
+      const ActiveContact active =
+          equations_.Activate(pressed.contact, 0, pressed.mu, kNone, pressed.yield);
+      yields_[At(pressed.contact)] = pressed.yield;
       force = active.At(-Gap(pressed.contact), rate).force;
       accelerations_[static_cast<std::size_t>(active.left)] -= active.left_inverse * force;
       accelerations_[static_cast<std::size_t>(active.right)] += active.right_inverse * force;
@@ -91,7 +96,7 @@ void Frames::Append(double instant, const Pieces& pieces, std::vector<double>* r
 void Frames::AppendEnergies(double instant, const Pieces& pieces, std::vector<double>* row) const {
   double stored = 0, dissipated = dissipated_, work = 0;
   for (int c = 0; c < equations_.contacts(); ++c) {
-    stored += ElasticEnergy(scenario_.contacts[At(c)], -Gap(c));
+    stored += ElasticEnergy(scenario_.contacts[At(c)], -Gap(c), yields_[At(c)]);
   }
   for (const auto& [number, piece] : pieces) {
     if (piece->begins() < instant) dissipated += DissipatedIn(*piece, instant);
@@ -132,7 +137,8 @@ double Frames::EnergyOf(const Piece& piece, std::span<const Place> places) const
   };
   for (const int c : piece.start.contacts) {
     const Contact& contact = scenario_.contacts[At(c)];
-    energy += ElasticEnergy(contact, -world_.Gap(c, of(contact.left), of(contact.right)));
+    energy +=
+        ElasticEnergy(contact, -world_.Gap(c, of(contact.left), of(contact.right)), yields_[At(c)]);
   }
   return energy;
 }

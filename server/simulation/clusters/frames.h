@@ -64,11 +64,11 @@ class Frames {
   double until_ = 0;  // All up to here are taken [s].
   double dissipated_ = 0;
   std::vector<CycleSample> wanted_;
-  // Of a sample: each body's place, ẋ and ẍ, and F of each contact.
+  // Of a sample: each body's place, ẋ and ẍ, and F and δ_y of each contact.
   std::vector<Place> places_;
   // Of the bodies of a piece.
   mutable std::vector<Place> own_;
-  std::vector<double> velocities_, accelerations_, forces_;
+  std::vector<double> velocities_, accelerations_, forces_, yields_;
 };
 
 }  // namespace contact

@@ -108,7 +108,8 @@ void TraceWriter::Write(const StepTime& step, const Eigen::ArrayXd& y0,
   if (interval_ == 0) return;
   trace_.dissipated.push_back(motion_.ExchangedUntil(y1).dissipated - lost_before_);
   for (const ActiveContact& active : motion_.equations().active) {
-    trace_.pressed.push_back({contacts_[static_cast<std::size_t>(active.contact)], active.mu});
+    const int contact = contacts_[static_cast<std::size_t>(active.contact)];
+    trace_.pressed.push_back({contact, active.mu, active.yield});
   }
   trace_.presses.push_back(trace_.pressed.size());
 }

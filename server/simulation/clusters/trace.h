@@ -19,8 +19,9 @@ struct Trace {
   };
   /// A contact in touch during a step.
   struct Pressed {
-    int contact = 0;  ///< Index in Scenario::contacts.
-    double mu = 0;    ///< μ of its cycle [N·s/mᵖ⁺¹].
+    int contact = 0;   ///< Index in Scenario::contacts.
+    double mu = 0;     ///< μ of its cycle [N·s/mᵖ⁺¹].
+    double yield = 0;  ///< δ_y of its table [m].
   };
 
   std::size_t bodies = 0;

@@ -22,14 +22,14 @@ void CloseWorks(const Scenario& scenario, double time, ContactState& contact) {
   Cycle& cycle = contact.cycle;
   const Contact& law = scenario.contacts[static_cast<std::size_t>(cycle.contact)];
   if (contact.phase == Phase::kResting) {
-    SetRest(law, time, cycle.end_deformation, contact.work, contact.external_work, &cycle);
+    SetRest(law, time, cycle.end_deformation, contact.work, contact.external_work, &contact);
     return;
   }
   if (contact.phase == Phase::kRestitution) {
-    SetRestitution(law, cycle.max_deformation, contact.work, contact.external_work, &cycle);
+    SetRestitution(law, cycle.max_deformation, contact.work, contact.external_work, &contact);
   } else {
     cycle.max_deformation = cycle.end_deformation;
-    SetCompression(law, cycle.end_deformation, contact.work, contact.external_work, &cycle);
+    SetCompression(law, cycle.end_deformation, contact.work, contact.external_work, &contact);
   }
 }
 

@@ -132,8 +132,7 @@ class Forecast {
     meeting.push = approach.acceleration;
     meeting.duration = SwingPeriod(1 / approach.inverse_mass, most / approach.inverse_mass,
                                    contact.stiffness, contact.exponent);
-    meeting.deformation =
-        PressedDeformation(0, most / approach.inverse_mass, contact.stiffness, contact.exponent);
+    meeting.deformation = Depth(contact, 0, most / approach.inverse_mass);
     meeting.pressed = steady > 0 ? scenario_.end_time : approach.passing_time;
     return meeting;
   }
@@ -156,15 +155,21 @@ class Forecast {
                                       contact.exponent);
     const double load = std::max(0.0, meeting.push) / approach.inverse_mass;
     meeting.deformation =
-        PressedDeformation(ImpactEnergy(contact, 1 / approach.inverse_mass, meeting.speed), load,
-                           contact.stiffness, contact.exponent);
+        Depth(contact, ImpactEnergy(contact, 1 / approach.inverse_mass, meeting.speed), load);
     return meeting;
+  }
+
+  static double Depth(const Contact& contact, double energy, double load) {
+    return contact.table.empty()
+               ? PressedDeformation(energy, load, contact.stiffness, contact.exponent)
+               : contact.table.DepthOf(energy, load);
   }
 
   // The part of an impact's energy that compresses; all of it where no α of the law is known [J].
   static double ImpactEnergy(const Contact& contact, double effective_mass, double speed) {
     const bool known = RowOf(contact.damping).scale == DampingScale::kVelocity;
     const double alpha = known ? DampingCoefficient(contact.damping, contact.restitution) : 0;
+    if (!contact.table.empty()) return 0.5 * effective_mass * speed * speed;
     const double deformation =
         MaximumDeformation(effective_mass, speed, contact.stiffness, contact.exponent, alpha);
     return ElasticEnergy(contact.stiffness, contact.exponent, deformation);

@@ -83,6 +83,9 @@ constexpr DampingLawRow kRows[] = {
     {kDashpot, DampingScale::kNone, "DASHPOT", nullptr, 1, 0,
      "c as given", "linear spring and damper of the scenario",
      "every cycle; exponent 1; pulls before the bodies part"},
+    {kForceTable, DampingScale::kNone, "FORCE_TABLE", nullptr, kAny, kOwn,
+     "F(δ) as given", "points of the scenario, with a way back of their own (F1)",
+     "every cycle; ε follows from the way back"},
 };
 // clang-format on
 

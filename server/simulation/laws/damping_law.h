@@ -26,8 +26,9 @@ enum class DampingLaw {
   kGharibHurmuzlu = 13,
   kKelvinVoigt = 14,
   kHertzQuarterPower = 15,
-  kGiven = 16,    ///< μ is a number of the scenario.
-  kDashpot = 17,  ///< So is c, which stands for μ.
+  kGiven = 16,       ///< μ is a number of the scenario.
+  kDashpot = 17,     ///< So is c, which stands for μ.
+  kForceTable = 18,  ///< There is no damping but by the way back of Contact::table.
 };
 
 /// How μ follows from the dimensionless α(ε) of a law.
@@ -77,12 +78,12 @@ std::span<const DampingLawRow> DampingLaws();
 
 /// How many laws there are; DampingLaws().size() as a constant, for wire/ to hold against the
 /// contract.
-inline constexpr int kDampingLaws = 17;
+inline constexpr int kDampingLaws = 18;
 
 /// The row of a law.
 const DampingLawRow& RowOf(DampingLaw law);
 
-/// Whether μ, or c, is a number of the scenario, and no ε is asked for: DampingScale::kNone.
+/// Whether μ, c or the force is given by the scenario, and no ε is asked for: DampingScale::kNone.
 bool IsGiven(DampingLaw law);
 
 /// Whether μ follows from ε, k and m_e alone: DampingScale::kMass.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulation/laws/damping_law.h"
+#include "simulation/laws/force_table.h"
 
 namespace contact {
 
@@ -38,15 +39,19 @@ struct Contact {
   int right = kNone;         ///< Body pushed to the right, or kNone for a wall there.
   double wall_position = 0;  ///< b [m]; only with a wall.
   double play = 0;           ///< c [m]; 0: none.
-  double stiffness = 0;      ///< k [N/mⁿ], > 0.
-  double exponent = 1.5;     ///< n [-], ≥ 1.
-  double restitution = 1;    ///< ε_in [-], in (0, 1]. Not used where IsGiven(damping).
+  /// k [N/mⁿ], > 0. With a table the straight line from 0 to its last point, by which steps and
+  /// guesses are scaled.
+  double stiffness = 0;
+  double exponent = 1.5;   ///< n [-], ≥ 1; 1 with a table.
+  double restitution = 1;  ///< ε_in [-], in (0, 1]. Not used where IsGiven(damping).
   /// How μ is found.
   DampingLaw damping = DampingLaw::kEnergyRestitution;
   /// μ [N·s/mⁿ⁺¹] of DampingLaw::kGiven, c [N·s/m] of kDashpot; ≥ 0. Not used by others.
   double mu = 0;
   /// Approach velocity from which a named law makes μ [m/s], > 0; 0: that of the cycle.
   double reference_velocity = 0;
+  /// The force of DampingLaw::kForceTable; empty with any other.
+  ForceTable table = {};
 };
 
 /// A spring and damper: force on `body` −k d − k₂ d² − k₃ d³ − … − c ḋ, d = x − x_other − rest.

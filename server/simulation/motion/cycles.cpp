@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simulation/laws/isolated_collision.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 #include "simulation/motion/cycle_works.h"
@@ -134,6 +134,7 @@ void Cycles::DescribeStart(int contact) {
                  .start_deformation = deformation,
                  .max_deformation = deformation,
                  .approach_velocity = approach};
+  state.stored = ElasticEnergy(system_.scenario.contacts[At(contact)], deformation, state.yield);
   state.start_velocity = system_.equations.Relative(contact, y + n);
   state.released = false;
   state.imbalance = 0;
@@ -142,9 +143,10 @@ void Cycles::DescribeStart(int contact) {
 
 // Whether what pressed a contact that rested has plainly weakened.
 bool Cycles::IsLetGo(int contact) const {
-  const Contact& c = system_.scenario.contacts[At(contact)];
-  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
-  const double force = c.stiffness * Power(deformation, c.exponent).value;
+  const ContactState& state = system_.contacts[At(contact)];
+  const double force = SpringForce(system_.scenario.contacts[At(contact)],
+                                   state.cycle.start_deformation, state.yield)
+                           .value;
   return ExternalForce(contact) < (1 - kLetGo) * force;
 }
 
@@ -155,10 +157,7 @@ void Cycles::Release(int contact, CycleHost& host) {
   state.cycle.mu = host.OnRelease(state, mass);
   state.released = true;
   state.column = kNone;
-  const Contact& c = system_.scenario.contacts[At(contact)];
-  const double length = state.cycle.start_deformation;
-  system_.scales[At(contact)] = {length,
-                                 ApproachVelocity(mass, length, 0, c.stiffness, c.exponent, 0)};
+  system_.scales[At(contact)] = {state.cycle.start_deformation, std::sqrt(2 * state.stored / mass)};
   system_.RefreshActive();
 }
 
@@ -182,15 +181,15 @@ void Cycles::SetScale(int contact, const CycleHost::Factor& factor) {
   if (cycle.kind == Cycle::Kind::kNirv) return RaiseScale(contact);
   if (factor.length != 0) return;
   const double alpha = NeedsNoVelocity(c.damping) ? 0 : factor.mu * approach / c.stiffness;
-  scale.length = MaximumDeformation(system_.equations.effective_mass(contact), approach,
-                                    c.stiffness, c.exponent, alpha);
+  scale.length = MaximumDeformation(c, system_.equations.effective_mass(contact), approach, alpha);
 }
 
 // The scale of a swing by a part of the deformation with which the cycle began.
 void Cycles::RaiseScale(int contact) {
-  const Contact& c = system_.scenario.contacts[At(contact)];
-  const double deformation = system_.contacts[At(contact)].cycle.start_deformation;
-  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  const ContactState& state = system_.contacts[At(contact)];
+  const double deformation = state.cycle.start_deformation;
+  const double stiffness =
+      SpringForce(system_.scenario.contacts[At(contact)], deformation, state.yield).slope;
   const double rate = std::sqrt(stiffness / system_.equations.effective_mass(contact));
   MovingSystem::Scale& scale = system_.scales[At(contact)];
   const double length = kCompressedScale * deformation;
@@ -202,20 +201,21 @@ void Cycles::RaiseScale(int contact) {
 double Cycles::FirstStep(int contact) const {
   const int n = system_.equations.bodies();
   const Contact& c = system_.scenario.contacts[At(contact)];
-  const Cycle& cycle = system_.contacts[At(contact)].cycle;
+  const ContactState& state = system_.contacts[At(contact)];
+  const Cycle& cycle = state.cycle;
   const double mass = system_.equations.effective_mass(contact);
   if (cycle.approach_velocity > 0) {
     const double v = cycle.approach_velocity;
     // In √t the error grows with the 9th power, t^4.5.
     return std::min(4 * std::pow(system_.tolerance, 2.0 / 9), 0.2) *
-           MaximumDeformation(mass, v, c.stiffness, c.exponent, 0) / v;
+           MaximumDeformation(c, mass, v, 0) / v;
   }
   double deformation = cycle.start_deformation;
   if (deformation == 0) {  // The load's equilibrium.
     const double a = std::abs(system_.equations.Relative(contact, system_.rk.slope0.data() + n));
-    deformation = std::pow(mass * a / c.stiffness, 1 / c.exponent);
+    deformation = DepthUnder(c, mass * a);
   }
-  const double stiffness = c.stiffness * Power(deformation, c.exponent).slope;
+  const double stiffness = SpringForce(c, deformation, state.yield).slope;
   return stiffness > 0 ? 0.1 / std::sqrt(stiffness / mass) : std::numeric_limits<double>::max();
 }
 
@@ -229,8 +229,9 @@ double Cycles::ExpectedDuration(int contact) const {
 void Cycles::Apply(const StepEvents::Found& found, CycleHost& host) {
   ContactState& state = system_.contacts[At(found.contact)];
   const EventKind kind = found.event.kind;
-  assert(kind != EventKind::kTurn);  // PassTurns has dealt with it.
-  if (kind == EventKind::kTouch || kind == EventKind::kRestTouch) {
+  if (kind == EventKind::kTurn) {  // PassTurns has dealt with others.
+    Yield(found.contact);
+  } else if (kind == EventKind::kTouch || kind == EventKind::kRestTouch) {
     state.phase = Phase::kStarting;
     state.settled = false;
     state.cycle.kind = kind == EventKind::kTouch ? Cycle::Kind::kCollision : Cycle::Kind::kNirv;
@@ -289,9 +290,20 @@ void Cycles::Turn(int contact, double time, const Eigen::ArrayXd& y) {
   state.cycle.turn_time = time;
   state.cycle.max_deformation = system_.Deformation(contact, y.data());
   SetCompression(system_.scenario.contacts[At(contact)], state.cycle.max_deformation,
-                 y[system_.equations.work(contact)], system_.ExternalWork(contact, y),
-                 &state.cycle);
+                 y[system_.equations.work(contact)], system_.ExternalWork(contact, y), &state);
   KeepTurnGradient(contact);
+}
+
+// The contact turns as the step ends, and what it has been pressed by decides how it goes back.
+void Cycles::Yield(int contact) {
+  ContactState& state = system_.contacts[At(contact)];
+  const double deformation = system_.Deformation(contact, system_.rk.y0.data());
+  if (deformation > state.yield) {
+    state.yield = deformation;
+    system_.tangents.Yield(contact, system_.equations.sides(contact));
+  }
+  Turn(contact, system_.time, system_.rk.y0);
+  system_.RefreshActive();
 }
 
 void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
@@ -309,6 +321,7 @@ void Cycles::EndCycle(ContactState& state, Cycle::End end, CycleHost& host) {
   turn.conservativeResizeLike(Eigen::ArrayXd::Zero(gradient.size()));
   if (separates) ShiftAtJump(contact, -1);
   state.phase = separates ? Phase::kOpen : Phase::kStarting;
+  if (separates) state.yield = 0;
   state.woken = false;
   state.last_mu = state.cycle.mu;
   const Cycle& cycle = state.cycle;  // Its scale may have been less than expected.
@@ -327,7 +340,7 @@ void Cycles::DescribeRest(ContactState& state) {
   const int contact = state.cycle.contact;
   const double deformation = std::max(0.0, system_.Deformation(contact, y.data()));
   SetRest(system_.scenario.contacts[At(contact)], system_.time, deformation,
-          y[system_.equations.work(contact)], system_.ExternalWork(contact, y), &state.cycle);
+          y[system_.equations.work(contact)], system_.ExternalWork(contact, y), &state);
   if (!system_.equations.recording) return;
   system_.contact_loss += state.cycle.dissipated_compression + state.cycle.dissipated_restitution;
 }
@@ -347,11 +360,11 @@ void Cycles::DescribeEnd(ContactState& state) {
   const bool at_force = system_.splits_at_force() && !std::isnan(peak.time);
   if (at_force) {
     cycle.turn_time = peak.time;
-    SetCompression(contact, peak.deformation, peak.work, peak.external_work, &cycle);
+    SetCompression(contact, peak.deformation, peak.work, peak.external_work, &state);
   }
   SetRestitution(contact, at_force ? peak.deformation : cycle.max_deformation,
                  y[system_.equations.work(cycle.contact)], system_.ExternalWork(cycle.contact, y),
-                 &cycle);
+                 &state);
   const double ratio = -cycle.work_restitution / cycle.work_compression;
   const bool told = cycle.work_compression > 0 && ratio >= 0 && !state.released;
   cycle.restitution_out = told ? std::sqrt(ratio) : kNaN;
@@ -401,7 +414,8 @@ void Cycles::CancelCycle(ContactState& state, CycleHost& host) {
 void Cycles::ShiftAtJump(int contact, double sign) {
   const int n = system_.equations.bodies();
   const ContactState& state = system_.contacts[At(contact)];
-  const ActiveContact c = system_.equations.Activate(contact, state.gap, state.cycle.mu, kNone);
+  const ActiveContact c =
+      system_.equations.Activate(contact, state.gap, state.cycle.mu, kNone, state.yield);
   const double rate = c.Relative(system_.rk.y0.data() + n);
   if (c.damping_exponent != 0 || rate == 0) return;
   system_.tangents.Jump(c, sign * c.At(0, rate).force / rate);

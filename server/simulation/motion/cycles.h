@@ -50,6 +50,8 @@ class Cycles {
   double ExternalForce(int contact) const;
   /// The works of a contact are counted from this instant on.
   void ResetWorks(int contact);
+  /// A contact turns whose force goes back on another way.
+  void Yield(int contact);
   /// Sets the scales of a cycle that starts.
   void SetScale(int contact, const CycleHost::Factor& factor);
   /// Makes the scales at least those of a swing by a small part of δ_s.

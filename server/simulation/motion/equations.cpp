@@ -4,12 +4,17 @@
 #include <limits>
 
 #include "simulation/methods/rows.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
 namespace contact {
 
 ActiveContact::Force ActiveContact::General(double deformation, double rate) const {
+  if (table != nullptr) {
+    const Power at = table->At(deformation, yield);
+    return {at.value, at.slope, 0, 0};
+  }
   const Power n(deformation, exponent);
   Power p = n;
   if (damping_exponent != exponent) p = Power(deformation, damping_exponent);
@@ -121,7 +126,8 @@ void Equations::Rebase(const std::vector<double>& positions) {
   }
 }
 
-ActiveContact Equations::Activate(int contact, double gap, double mu, int column) const {
+ActiveContact Equations::Activate(int contact, double gap, double mu, int column,
+                                  double yield) const {
   const Contact& c = scenario_.contacts[At(contact)];
   ActiveContact made{sides(contact)};
   made.contact = contact;
@@ -134,6 +140,8 @@ ActiveContact Equations::Activate(int contact, double gap, double mu, int column
   }
   made.stiffness = c.stiffness;
   made.exponent = c.exponent;
+  if (!c.table.empty()) made.table = &c.table;
+  made.yield = yield;
   made.damping_exponent = DampingExponent(c.damping, c.exponent);
   made.clipped = scenario_.solver.clip_tension;
   made.plain = made.exponent == 1.5 && made.damping_exponent == 1.5;
@@ -317,7 +325,7 @@ double Equations::KineticEnergy(const double* y) const {
 double Equations::ContactEnergy(const double* y) const {
   double energy = 0;
   for (const ActiveContact& c : active) {
-    energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap);
+    energy += ElasticEnergy(scenario_.contacts[At(c.contact)], c.Relative(y) - c.gap, c.yield);
   }
   return energy;
 }
@@ -343,10 +351,6 @@ double Equations::MomentumScale(const double* y) const {
     if (inverse_mass_[At(i)] != 0) sum += std::abs(y[bodies() + i]) / inverse_mass_[At(i)];
   }
   return sum;
-}
-
-double ElasticEnergy(const Contact& contact, double deformation) {
-  return ElasticEnergy(contact.stiffness, contact.exponent, deformation);
 }
 
 }  // namespace contact

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulation/laws/force_table.h"
 #include "simulation/laws/power.h"
 #include "simulation/laws/spring.h"
 #include "simulation/model/piece_rows.h"
@@ -50,6 +51,9 @@ struct ActiveContact : Sides {
   bool clipped = false;
   /// Whether n = p = 1.5, as in most contacts.
   bool plain = false;
+  /// In place of k δⁿ; null: none. Its δ_y [m].
+  const ForceTable* table = nullptr;
+  double yield = 0;
   /// The part of F that is no internal force of the bodies: 1 against a wall or fixed body on the
   /// left, −1 on the right, else 0.
   double outward = 0;
@@ -81,8 +85,9 @@ struct ActiveContact : Sides {
     const double d = std::max(deformation, 0.0);
     return mu * (plain ? d * std::sqrt(d) : std::pow(d, damping_exponent));
   }
-  /// k n δⁿ⁻¹, the stiffness about δ without its damping [N/m].
+  /// k n δⁿ⁻¹ or the slope of the table, the stiffness about δ without its damping [N/m].
   double StiffnessAt(double deformation) const {
+    if (table != nullptr) return table->At(deformation, yield).slope;
     const double d = std::max(deformation, 0.0);
     return stiffness * (plain ? 1.5 * std::sqrt(d) : exponent * std::pow(d, exponent - 1));
   }
@@ -92,6 +97,10 @@ struct ActiveContact : Sides {
     const double load = stiffness + mu * rate;
     if (deformation <= 0 || (clipped && load < 0)) return 0;
     return deformation * std::sqrt(deformation) * load;
+  }
+  /// Whether the table has another slope at one δ than at the other.
+  bool Bends(double from, double to) const {
+    return table != nullptr && table->At(from, yield).slope != table->At(to, yield).slope;
   }
   /// Whether (M2) would pull and is clipped; at δ ≤ 0 whether it does so just before.
   bool Clips(double deformation, double rate) const {
@@ -142,8 +151,8 @@ class Equations : public StateLayout {
 
   /// m_e of a contact [kg], (M5); a wall or fixed body counts as infinitely heavy.
   double effective_mass(int contact) const;
-  /// The contact for `active`, with δ = u_left − u_right − `gap`.
-  ActiveContact Activate(int contact, double gap, double mu, int column) const;
+  /// The contact for `active`, with δ = u_left − u_right − `gap`. `yield`: δ_y of a table [m].
+  ActiveContact Activate(int contact, double gap, double mu, int column, double yield = 0) const;
 
   /// Force of the support with this index on its first body [N], (M4).
   [[gnu::always_inline]] double SupportForce(std::size_t support, const double* u,
@@ -257,8 +266,5 @@ class Equations : public StateLayout {
   // EvaluateFew for what there is; null if Evaluate must do it.
   void (*few_)(const Equations&, const double*, double*, double) = nullptr;
 };
-
-/// Elastic energy U = k δⁿ⁺¹/(n + 1) of a contact [J], (W2); 0 for δ ≤ 0.
-double ElasticEnergy(const Contact& contact, double deformation);
 
 }  // namespace contact

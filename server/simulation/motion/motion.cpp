@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -65,10 +66,9 @@ Exchanged Motion::ExchangedUntil(const Eigen::ArrayXd& y) const {
   double lost = totals_.support_loss + y[equations.support_loss()] + system_.contact_loss;
   for (const ActiveContact& active : equations.active) {
     const Contact& contact = system_.scenario.contacts[At(active.contact)];
-    const double from = system_.contacts[At(active.contact)].cycle.start_deformation;
     const double deformation = active.Relative(y.data()) - active.gap;
-    lost += y[equations.work(active.contact)] - ElasticEnergy(contact, deformation) +
-            ElasticEnergy(contact, from);
+    lost += y[equations.work(active.contact)] - ElasticEnergy(contact, deformation, active.yield) +
+            system_.contacts[At(active.contact)].stored;
   }
   return {.dissipated = lost, .load_work = totals_.load_work + y[equations.load_work()]};
 }
@@ -118,12 +118,13 @@ Motion::Pause Motion::Advance(double until, CycleHost& host, StepListener* liste
 }
 
 // Takes contacts through the turns inside the step: nothing changes for the motion there, so it
-// need not stop. Returns the first event at which it must.
+// need not stop, but for a contact that yields. Returns the first event at which it must.
 StepEvents::Found Motion::PassTurns() {
   turns_.clear();
   while (true) {
     const StepEvents::Found found = events_.First(stepper_.separating());
     if (found.contact == kNone || found.event.kind != EventKind::kTurn) return found;
+    if (system_.scenario.contacts[At(found.contact)].table.yields()) return found;
     if (turns_.empty()) system_.PrepareInterpolation();
     PassTurn(found.contact, found.event.theta);
   }

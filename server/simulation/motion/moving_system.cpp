@@ -109,7 +109,7 @@ void MovingSystem::RefreshActive() {
     if (!InTouch(contact.phase)) continue;
     resting |= contact.phase == Phase::kResting;
     equations.active.push_back(
-        equations.Activate(c, contact.gap, contact.cycle.mu, contact.column));
+        equations.Activate(c, contact.gap, contact.cycle.mu, contact.column, contact.yield));
   }
   equations.Prepare();
   if (implicit) euler.Prepare();

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "simulation/laws/power.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -19,12 +19,10 @@ constexpr double kWakeFactor = 4, kGone = 0.5;
 // Part of that work up to which what comes may be its cause.
 constexpr double kNegligible = 1.0 / 16;
 
-// k δⁿ and its slope.
-Power Stress(const Contact& contact, double deformation) {
-  Power power(deformation, contact.exponent);
-  power.value *= contact.stiffness;
-  power.slope *= contact.stiffness;
-  return power;
+// The force of a contact at a deformation, and its slope.
+Power Stress(const MovingSystem& system, int contact, double deformation) {
+  return SpringForce(system.scenario.contacts[At(contact)], deformation,
+                     system.contacts[At(contact)].yield);
 }
 
 // The work that ends the rest of a contact [J].
@@ -35,7 +33,7 @@ double WakingWork(const MovingSystem& system, const ContactState& state) {
 // The work of a contact since its cycle began, at this deformation, in units of what ends a rest.
 double Disturbance(const MovingSystem& system, int contact, double deformation) {
   const ContactState& state = system.contacts[At(contact)];
-  const double force = Stress(system.scenario.contacts[At(contact)], deformation).value;
+  const double force = Stress(system, contact, deformation).value;
   const double work = force * std::abs(deformation - state.cycle.start_deformation);
   const double limit = WakingWork(system, state);
   return limit > 0 ? work / limit : 0;
@@ -63,9 +61,9 @@ double Rest::NextEnd() const {
 }
 
 bool Rest::IsLeft(int contact, double deformation) const {
-  const Contact& c = system_.scenario.contacts[At(contact)];
   const double start = system_.contacts[At(contact)].cycle.start_deformation;
-  return Stress(c, deformation).value < kGone * Stress(c, start).value;
+  return Stress(system_, contact, deformation).value <
+         kGone * Stress(system_, contact, start).value;
 }
 
 // Where δ̇ changes its sign, as long as what has happened since the rest began is negligible.
@@ -125,7 +123,7 @@ std::vector<int> Rest::Disturbed(const std::vector<double>& of_bodies, Displacem
     const double cause =
         std::max(sides.left_counts * of_bodies[static_cast<std::size_t>(sides.left)],
                  sides.right_counts * of_bodies[static_cast<std::size_t>(sides.right)]);
-    const Power stress = Stress(system_.scenario.contacts[At(c)], state.cycle.start_deformation);
+    const Power stress = Stress(system_, c, state.cycle.start_deformation);
     const double moved = by(cause, stress.slope);
     const double work = (stress.value + 0.5 * stress.slope * moved) * moved;
     if (work > WakingWork(system_, state)) disturbed.push_back(c);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "simulation/laws/isolated_collision.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -39,7 +39,7 @@ State InitialState(const Scenario& scenario) {
       contact.settled = scenario.starts_at_rest && closing == 0;
       contact.woken = !contact.settled;
       // As if one cycle had pressed it so far.
-      contact.largest_work = ElasticEnergy(c.stiffness, c.exponent, -contact.gap);
+      contact.largest_work = ElasticEnergy(c, -contact.gap, 0);
     } else if (contact.gap == 0 && closing > 0) {
       contact.phase = Phase::kStarting;
       contact.cycle.kind = Cycle::Kind::kCollision;

@@ -45,6 +45,10 @@ struct ContactState {
   double work = 0;
   /// E since the start of the running cycle [J], (W3); only of a recording.
   double external_work = 0;
+  /// U where the running cycle began [J], (W2).
+  double stored = 0;
+  /// δ_y of its ForceTable: the largest δ at which it has turned since it touched [m].
+  double yield = 0;
   /// Sensitivity column of its μ in the running pass, or kNone.
   int column = kNone;
   /// Where F was largest so far in the running cycle. Only with PhaseSplit::kPeakForce.

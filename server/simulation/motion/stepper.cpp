@@ -5,6 +5,7 @@
 #include <concepts>
 #include <limits>
 
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -219,8 +220,9 @@ double Stepper::WorkError(const ActiveContact& active, double length) const {
   const std::ptrdiff_t work = system_.equations.work(active.contact);
   system_.rk.Errors(work, 1, &five.length, &three.length);
   const double start = system_.contacts[At(active.contact)].cycle.start_deformation;
-  const double stored = ElasticEnergy(active.stiffness, active.exponent, start + length) -
-                        ElasticEnergy(active.stiffness, active.exponent, start);
+  const Contact& contact = system_.scenario.contacts[At(active.contact)];
+  const double stored = ElasticEnergy(contact, start + length, active.yield) -
+                        ElasticEnergy(contact, start, active.yield);
   const int n = system_.equations.bodies();
   const double speed = active.Relative(system_.rk.y1.data() + n);
   const bool speeds_up = speed > 0 && active.Relative(system_.rk.slope0.data() + n) > 0;
@@ -318,10 +320,12 @@ double Stepper::ErrorNorm(Count n, double h) {
     const MovingSystem::Scale& own = system_.scales[At(active.contact)];
     const Motions five{active.Relative(e5), active.Relative(e5 + n)};
     const Motions three{active.Relative(e3), active.Relative(e3 + n)};
-    // Of a force clipped at the end, a kink, the estimate of order 3 tells nothing.
-    const bool kink = active.Clips(active.Relative(y) - active.gap, active.Relative(y + n));
-    // What round-off of positions and velocities makes of a step is no error of the step.
+    // Of a force clipped at the end, or with a corner in the step, the estimate of order 3 tells
+    // nothing.
     const double deformation = active.Relative(y) - active.gap;
+    const bool kink = active.Clips(deformation, active.Relative(y + n)) ||
+                      active.Bends(active.Relative(system_.rk.y0.data()) - active.gap, deformation);
+    // What round-off of positions and velocities makes of a step is no error of the step.
     const double inverse_mass = active.left_inverse + active.right_inverse;
     const double moved = Largest(active.left_counts * std::abs(y[active.left]),
                                  active.right_counts * std::abs(y[active.right]));
@@ -428,6 +432,7 @@ Stepper::Residual Stepper::ResidualOf(const StepEvents::Found& found) const {
   switch (found.event.kind) {
     case EventKind::kRestTouch:
       return {0, 1};  // Known to within the noise.
+    case EventKind::kTurn:
     case EventKind::kNonSeparation:
       return {rate, system_.equations.Relative(found.contact, system_.rk.slope1.data() + n)};
     default:

@@ -32,12 +32,12 @@ void Tangents::Clear() {
   u_.resize(0, equations_.bodies());
   v_.resize(0, equations_.bodies());
   work_.resize(0, equations_.contacts());
-  slack_.resize(0, std::ssize(scenario_.supports));
-  slipped_ = false;
+  memory_.resize(0, equations_.contacts() + std::ssize(scenario_.supports));
+  remembers_ = false;
 }
 
 void Tangents::Add() {
-  for (Eigen::ArrayXXd* all : {&u_, &v_, &work_, &slack_}) {
+  for (Eigen::ArrayXXd* all : {&u_, &v_, &work_, &memory_}) {
     all->conservativeResize(all->rows() + 1, Eigen::NoChange);
     all->bottomRows(1).setZero();
   }
@@ -77,16 +77,21 @@ void Tangents::Evaluate(const StepTime& step, const std::vector<DeformationPath>
     const std::size_t contacts = equations_.active.size();
     for (std::size_t i = 0; i < contacts; ++i) {
       const double rate = paths[i].Slope(theta) / slow;
-      const ActiveContact::Force f = equations_.active[i].At(paths[i].Value(theta), rate);
+      const ActiveContact& c = equations_.active[i];
+      const double deformation = paths[i].Value(theta);
+      const ActiveContact::Force f = c.At(deformation, rate);
       laws.push_back(
           {pace * f.force, pace * f.by_deformation, pace * f.by_rate, pace * f.damping, rate});
+      if (c.table != nullptr) laws.back().by_memory = pace * c.table->ByYield(deformation, c.yield);
     }
     auto stretch = paths.begin() + static_cast<std::ptrdiff_t>(contacts);
     for (std::size_t i = 0; i < scenario_.supports.size(); ++i) {  // (M4)
       const Support& s = scenario_.supports[i];
       const double length = s.higher.empty() ? 0 : (stretch++)->Value(theta);
       const double slope = equations_.SpringOf(i, length).slope;
-      laws.push_back({.by_deformation = pace * slope, .by_rate = pace * s.damping});
+      laws.push_back({.by_deformation = pace * slope,
+                      .by_rate = pace * s.damping,
+                      .by_memory = -pace * slope});
     }
   }
 }
@@ -194,15 +199,22 @@ void Tangents::Move(Count count) {
   }
 }
 
-void Tangents::AddSlacks() {
+// To the forces, and to the works of contacts, of which that is all that AddWorks leaves out.
+void Tangents::AddMemories() {
   const std::size_t contacts = equations_.active.size();
-  for (std::ptrdiff_t support = 0; support < slack_.cols(); ++support) {
-    const std::size_t l = contacts + static_cast<std::size_t>(support);
+  for (std::size_t l = 0; l < linked_.links().size(); ++l) {
     const Link& link = linked_.links()[l];
+    const bool of_contact = l < contacts;
+    const auto memory =
+        memory_.col(of_contact ? equations_.active[l].contact
+                               : equations_.contacts() + static_cast<Eigen::Index>(l - contacts));
     for (std::ptrdiff_t j = 0; j < 2; ++j) {
-      const double slope = stages_.laws[j][l].by_deformation;
-      sides_.col(2 * link.left + j) += link.left_inverse * slope * slack_.col(support);
-      sides_.col(2 * link.right + j) -= link.right_inverse * slope * slack_.col(support);
+      const Law& law = stages_.laws[j][l];
+      sides_.col(2 * link.left + j) -= link.left_inverse * law.by_memory * memory;
+      sides_.col(2 * link.right + j) += link.right_inverse * law.by_memory * memory;
+      if (!of_contact) continue;
+      x_.col(2 * linked_.size() + static_cast<Eigen::Index>(l)) +=
+          method_->weight[j] * law.rate * law.by_memory * memory;
     }
   }
 }
@@ -245,7 +257,7 @@ void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& 
     Assemble();
     WithCount<1, 2, 3, 4>(count(), [&](auto n) {
       AddForces(n);
-      if (slipped_) AddSlacks();
+      if (remembers_) AddMemories();
       system_.Solve(n, sides_.data());
       Move(n);
       AddWorks(n);
@@ -258,11 +270,17 @@ void Tangents::Follow(const StepTime& step, const std::vector<DeformationPath>& 
   Scatter();
 }
 
-// A change of the instant changes nothing, for the rate is 0 then.
+// A change of the instant changes nothing in what both remember, for the rate is 0 then.
 void Tangents::Stick(std::size_t support, const Sides& sides) {
-  slack_.col(static_cast<Eigen::Index>(support)) =
+  Remember(equations_.contacts() + static_cast<Eigen::Index>(support), sides);
+}
+
+void Tangents::Yield(int contact, const Sides& sides) { Remember(contact, sides); }
+
+void Tangents::Remember(Eigen::Index column, const Sides& sides) {
+  memory_.col(column) =
       sides.left_counts * u_.col(sides.left) - sides.right_counts * u_.col(sides.right);
-  slipped_ = slipped_ || count() > 0;
+  remembers_ = remembers_ || count() > 0;
 }
 
 // A change of the instant, −δ_μ/δ̇, changes the velocities after it.

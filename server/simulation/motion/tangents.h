@@ -51,6 +51,8 @@ class Tangents {
   /// Changes the velocities where the force of a contact begins or ends with a jump, (S3), by
   /// `growth`, the force that begins, over δ̇ [N·s/m].
   void Jump(const Sides& sides, double growth);
+  /// The way back of a contact begins here: its δ_y is its δ.
+  void Yield(int contact, const Sides& sides);
   /// A spring that has slipped sticks: its slack position has gone along so far.
   void Stick(std::size_t support, const Sides& sides);
   /// ∂W/∂μ of a contact, for each μ, (S2).
@@ -58,9 +60,10 @@ class Tangents {
 
  private:
   using Link = LinkedBodies::Link;
-  /// A force and its derivatives by δ, δ̇ and μ, by the clock of a part, and δ̇ itself [m/s].
+  /// A force and its derivatives by δ, δ̇ and μ, by the clock of a part, δ̇ itself [m/s], and the
+  /// derivative by what the link remembers: a slack position or δ_y.
   struct Law {
-    double force = 0, by_deformation = 0, by_rate = 0, damping = 0, rate = 0;
+    double force = 0, by_deformation = 0, by_rate = 0, damping = 0, rate = 0, by_memory = 0;
   };
   /// The two stages of a part: its length in time by the pace of each [s], and the laws of all
   /// links.
@@ -79,8 +82,10 @@ class Tangents {
   /// The forces of the stages if nothing were accelerated, as the right sides of that system.
   template <class Count>
   void AddForces(Count count);
-  /// Adds what the slack positions of supports do to them.
-  void AddSlacks();
+  /// Adds what slack positions of supports and δ_y of contacts do to them, and to works.
+  void AddMemories();
+  /// The difference of the bodies' displacements is what this column remembers.
+  void Remember(Eigen::Index column, const Sides& sides);
   /// ∂u/∂μ and ∂v/∂μ of the linked bodies at the stages, by the accelerations.
   template <class Count>
   void Move(Count count);
@@ -94,10 +99,10 @@ class Tangents {
   const Scenario& scenario_;
   const Equations& equations_;
   // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact; of
-  // slack positions: a column for each support.
-  Eigen::ArrayXXd u_, v_, work_, slack_;
-  // Whether one of slack_ is not 0.
-  bool slipped_ = false;
+  // δ_y of contacts, and then slack positions of supports: a column for each.
+  Eigen::ArrayXXd u_, v_, work_, memory_;
+  // Whether one of memory_ is not 0.
+  bool remembers_ = false;
   LinkedBodies linked_;
   const Method* method_ = nullptr;
   Stages stages_;

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "simulation/laws/power.h"
 #include "simulation/laws/spring.h"
+#include "simulation/model/contact_spring.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -67,7 +67,7 @@ class Balance {
     for (const Contact& contact : scenario.contacts) {
       gaps_.push_back(InitialGap(scenario, contact));
       // As soft that the contact holds that load about where it is now.
-      const double pressed = std::pow(load / contact.stiffness, 1 / contact.exponent);
+      const double pressed = DepthUnder(contact, load);
       widths_.push_back(2 * std::sqrt((std::abs(gaps_.back()) + pressed) * pressed));
     }
   }
@@ -86,9 +86,8 @@ class Balance {
       if (HasVelocity(contact.left) || HasVelocity(contact.right)) continue;
       const int left = Row(contact.left), right = Row(contact.right);
       const Soft soft(Of(u, left) - Of(u, right) - gaps_[c], softness * widths_[c]);
-      const Power power(soft.value, contact.exponent);
-      Push(left, right, -contact.stiffness * power.value,
-           contact.stiffness * power.slope * soft.slope);
+      const Power spring = SpringForce(contact, soft.value, 0);
+      Push(left, right, -spring.value, spring.slope * soft.slope);
     }
     for (const Support& support : scenario_.supports) {
       if (HasVelocity(support.body) || HasVelocity(support.other)) continue;

@@ -118,9 +118,17 @@ class ContactDecoder {
     }
     if (!message.wall().has_material()) return;
     CheckMaterial(message.wall().material(), rules.In("material"));
-    if (message.has_stiffness()) {
-      rules.Break("material", "is given beside stiffness", "give one of the two");
+    if (IsStiff(message)) {
+      rules.Break(
+          "material",
+          fmt::format("is given beside {}", message.has_stiffness() ? "stiffness" : "force_table"),
+          "give one of the two");
     }
+  }
+
+  // Whether the force asks for no materials.
+  static bool IsStiff(const v1::Contact& message) {
+    return message.has_stiffness() || message.damping() == v1::Contact::FORCE_TABLE;
   }
 
   const v1::Body& Message(int body) const { return scenario_.bodies(body); }
@@ -128,7 +136,7 @@ class ContactDecoder {
   // A stiffness is given, or follows from materials.
   void CheckStiffness(const v1::Contact& message, const std::vector<int>& touching,
                       const Rules& rules) const {
-    if (message.has_stiffness()) return;
+    if (IsStiff(message)) return;
     if (message.has_clearance_m()) {
       rules.Break("stiffness", "is missing", "k, in N/m^exponent; clearance_m needs it");
       return;
@@ -169,7 +177,7 @@ class ContactDecoder {
 
   // Fills the stiffness that follows from materials, once they and the radii are right.
   void FillStiffness(const v1::Contact& message, Contact* contact, const Rules& rules) const {
-    if (message.has_stiffness()) return;
+    if (IsStiff(message)) return;
     double compliance = message.has_wall() ? Compliance(message.wall().material()) : 0;
     double curvature = 0;
     for (const int body : {contact->left, contact->right}) {

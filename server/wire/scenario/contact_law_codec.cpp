@@ -4,7 +4,9 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "wire/scenario/force_table_codec.h"
 #include "wire/scenario/law_catalogue.h"
 
 namespace contact {
@@ -79,6 +81,34 @@ double DecodeExponent(const v1::Contact& message, DampingLaw damping, const Rule
   return exponent;
 }
 
+// All that a table says already.
+void BreakBesideTable(const v1::Contact& message, const Rules& rules) {
+  const std::pair<const char*, bool> others[] = {
+      {"stiffness", message.has_stiffness()},
+      {"exponent", message.has_exponent()},
+      {"restitution", message.has_restitution()},
+      {"reference_velocity_m_per_s", message.has_reference_velocity_m_per_s()}};
+  for (const auto& [field, given] : others) {
+    if (given) {
+      rules.Break(field, "is given beside damping FORCE_TABLE", "remove it; force_table says all");
+    }
+  }
+}
+
+// The contact of damping FORCE_TABLE.
+void DecodeTable(const v1::Contact& message, const Rules& rules, Contact* contact) {
+  BreakBesideTable(message, rules);
+  if (!message.has_force_table()) {
+    rules.Break("force_table", "is missing; damping FORCE_TABLE needs it");
+    return;
+  }
+  const v1::ForceTable& table = message.force_table();
+  contact->table = DecodeForceTable(table, rules.In("force_table"));
+  if (contact->table.empty()) return;
+  contact->exponent = 1;
+  contact->stiffness = table.forces_n().rbegin()[0] / table.deformations_m().rbegin()[0];
+}
+
 }  // namespace
 
 Contact DecodeContactLaw(const v1::Contact& message, const Rules& rules) {
@@ -88,6 +118,15 @@ Contact DecodeContactLaw(const v1::Contact& message, const Rules& rules) {
     contact.stiffness = rules.Check<Field>(Field::kStiffnessFieldNumber, message.stiffness());
   }
   contact.damping = DecodeDamping(message, rules);
+  if (contact.damping == DampingLaw::kForceTable) {
+    DecodeMu(message, contact.damping, rules);  // There is none.
+    DecodeTable(message, rules, &contact);
+    return contact;
+  }
+  if (message.has_force_table()) {
+    rules.Break("force_table", "is given, but goes only with damping FORCE_TABLE",
+                "remove force_table, or set damping: FORCE_TABLE");
+  }
   contact.exponent = DecodeExponent(message, contact.damping, rules);
   DecodeRestitution(message, rules, &contact);
   contact.mu = DecodeMu(message, contact.damping, rules);

@@ -14,12 +14,13 @@ static_assert(v1::Contact::Damping_ARRAYSIZE == kDampingLaws + 1);
 static_assert(v1::Contact::ENERGY_RESTITUTION == static_cast<int>(DampingLaw::kEnergyRestitution));
 static_assert(v1::Contact::MU == static_cast<int>(DampingLaw::kGiven));
 static_assert(v1::Contact::DASHPOT == static_cast<int>(DampingLaw::kDashpot));
+static_assert(v1::Contact::FORCE_TABLE == static_cast<int>(DampingLaw::kForceTable));
 
 /// A damping law as clients list it: a row of the table in simulation/laws.
 using LawEntry = DampingLawRow;
 
-/// Every law that makes μ from ε, so all but MU and DASHPOT, in the order of the contract. The rows
-/// live as long as the program.
+/// Every law that makes μ from ε, so all but MU, DASHPOT and FORCE_TABLE, in the order of the
+/// contract. The rows live as long as the program.
 inline const std::vector<LawEntry>& LawCatalogue() {
   static const std::vector<LawEntry> laws = [] {
     std::vector<LawEntry> some;

@@ -165,6 +165,30 @@ TEST(Clusters, SamplesAreThoseOfAllTogether) {
   }
 }
 
+// Every second contact goes back on another way, a part of them more steeply after hard blows.
+TEST(Clusters, TablesThatYieldAreThoseOfAllTogether) {
+  Scenario s = Gas(20, 1e6, 2);
+  for (std::size_t c = 0; c < s.contacts.size(); c += 2) {
+    Contact& contact = s.contacts[c];
+    contact.damping = DampingLaw::kForceTable;
+    contact.table = ForceTable({{2e-5, 1}, {2e-4, 20}}, {1.5e5, c % 4 == 0 ? 500.0 : 0.0});
+    contact.stiffness = 1e5, contact.exponent = 1;
+  }
+  s.sample_interval = s.end_time / 3000;
+  s.samples_per_contact = 12;
+  const Record parts = RunAndRecord(s), whole = RunTogether(s);
+  ExpectSame(parts, whole, 1e-9, 1e-5);
+  ExpectClosedBalances(parts.outcome);
+  ASSERT_EQ(parts.rows(), whole.rows());
+  const int energies = parts.columns - 5;
+  for (int row = 0; row < parts.rows(); ++row) {
+    for (int column = energies; column < parts.columns; ++column) {
+      ASSERT_NEAR(parts.Sample(row, column), whole.Sample(row, column), 1e-8)
+          << row << " " << column;
+    }
+  }
+}
+
 TEST(Clusters, SamplesWithinACollisionAreAsManyAsAsked) {
   Scenario s = Gas(8, 1e8, 3);
   s.sample_interval = s.end_time;

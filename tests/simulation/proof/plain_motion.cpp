@@ -27,6 +27,7 @@ PlainMotion::PlainMotion(const Scenario& scenario, double speed, double toleranc
       mu_(scenario.contacts.size(), kNone_),
       scales_(scenario.contacts.size()),
       overlaps_(scenario.contacts.size()),
+      yields_(scenario.contacts.size()),
       state_(2 * bodies_ + scenario.contacts.size(), 0.0) {
   for (std::size_t i = 0; i < bodies_; ++i) state_[bodies_ + i] = s_.bodies[i].velocity;
   for (const Contact& c : s_.contacts) {
@@ -64,6 +65,10 @@ PlainMotion::Force PlainMotion::ContactForce(std::size_t contact, const Vector& 
   const Contact& c = s_.contacts[contact];
   const double depth = std::max(0.0, Difference(c.left, c.right, y, 0) - gaps_[contact]);
   const double rate = Difference(c.left, c.right, y, bodies_);
+  if (!c.table.empty()) {
+    const Power at = c.table.At(depth, yields_[contact]);
+    return {at.value, at.slope, 0};
+  }
   const double n = c.exponent, p = exponents_[contact], mu = mu_[contact];
   const double spring = c.stiffness * std::pow(depth, n);
   const double damping = p == n ? mu * (spring / c.stiffness) : mu * std::pow(depth, p);
@@ -247,7 +252,12 @@ void PlainMotion::Accept(const Vector& reached, double time) {
   }
   for (std::size_t i = 0; i < gaps_.size(); ++i) {
     gaps_[i] -= Difference(s_.contacts[i].left, s_.contacts[i].right, state_, 0);
-    if (std::isnan(mu_[i])) overlaps_[i] = std::max(overlaps_[i], -gaps_[i]);
+    if (std::isnan(mu_[i])) {
+      overlaps_[i] = std::max(overlaps_[i], -gaps_[i]);
+      if (gaps_[i] > 0) yields_[i] = 0;
+    } else {  // What it turns at is the most there was: a step ends there.
+      yields_[i] = std::max(yields_[i], -gaps_[i]);
+    }
   }
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     stretches_[i] += Difference(s_.supports[i].body, s_.supports[i].other, state_, 0);

@@ -78,6 +78,7 @@ class PlainMotion {
   std::vector<double> mu_;         // NaN: not engaged.
   std::vector<Scale> scales_;
   std::vector<double> gaps_, stretches_, overlaps_;  // Of contacts; of supports; of contacts.
+  std::vector<double> yields_;                       // δ_y of tables.
   Vector state_;  // Displacements in the step, velocities, works.
   double time_ = 0, step_ = 1e-7;
   int steps_ = 0, stiff_ = 0;

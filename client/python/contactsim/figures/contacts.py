@@ -72,12 +72,14 @@ class _Ends:
         self._clip = run.result.scenario.solver.tension == scenario_pb2.Solver.CLIP
 
     def start_force(self, cycle: job_pb2.Cycle) -> float:
-        return self._force(cycle, cycle.delta_start_m, cycle.approach_velocity_m_per_s)
+        return self._force(cycle, cycle.start_time_s, cycle.delta_start_m,
+                           cycle.approach_velocity_m_per_s)
 
     def end_force(self, cycle: job_pb2.Cycle) -> float:
         if cycle.end == job_pb2.Cycle.RUN_END:
             return self._run.at(f"{cycle.contact}.contact_force", cycle.end_time_s)
-        return self._force(cycle, cycle.delta_end_m, cycle.separation_velocity_m_per_s)
+        return self._force(cycle, cycle.end_time_s, cycle.delta_end_m,
+                           cycle.separation_velocity_m_per_s)
 
     def end_rate(self, cycle: job_pb2.Cycle) -> float:
         if cycle.end == job_pb2.Cycle.RUN_END:
@@ -85,8 +87,11 @@ class _Ends:
         rate: float = cycle.separation_velocity_m_per_s
         return rate
 
-    def _force(self, cycle: job_pb2.Cycle, delta: float, rate: float) -> float:
-        """Where δ̇ or δ is 0: that of the spring, and that of a damper which does not fade with δ."""
+    def _force(self, cycle: job_pb2.Cycle, time: float, delta: float, rate: float) -> float:
+        """Where δ̇ or δ is 0: that of the spring, and that of a damper which does not fade with δ.
+        Of a table, whose force depends on what it has borne, that of the samples beside."""
+        if self._law.tabled and delta > 0:
+            return self._run.at(f"{cycle.contact}.contact_force", time)
         damper = cycle.mu * rate if self._law.damping_exponent == 0 else 0.0
         value: float = self._law.stiffness * math.pow(max(delta, 0.0), self._law.exponent) + damper
         return max(value, 0.0) if self._clip else value

@@ -225,6 +225,9 @@ def _of_run(result: Result, panels: list[Panel], note: str) -> Figure:
     for panel in panels:
         panel.curves = [curve for curve in panel.curves if len(curve.x)]
         if not panel.curves:
+            if result.job.HasField("sweep"):
+                raise FigureError("this is a sweep, which has no trajectory of its own; "
+                                  "sweep heatmap draws its cells")
             raise FigureError("this run has nothing to show there")
     marked = any(curve.is_mark for panel in panels for curve in panel.curves)
     return Figure(result.scenario.title, panels, [source_of(result.job)], note if marked else "")
