@@ -31,9 +31,14 @@ TailCursor::TailCursor(EventSource source, std::string name, std::shared_ptr<Job
       kinds_(kinds),
       waker_(std::make_shared<const Wake>(std::move(wake))),
       place_(std::move(place)),
-      position_(position) {}
+      position_(position) {
+  log_->Join();
+}
 
-TailCursor::~TailCursor() { log_->Forget(waker_); }
+TailCursor::~TailCursor() {
+  log_->Forget(waker_);
+  log_->Leave();
+}
 
 LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
   for (;;) {

@@ -50,7 +50,7 @@ class SampleLog {
       End();
     }
   }
-  /// Hands out what is left, at the end of the run.
+  /// Hands out the samples that do not fill a chunk yet. The next chunk ends where it would have.
   void Flush();
 
   /// Ends the trajectory with the last chunk that was handed out, because the run is stopped.
