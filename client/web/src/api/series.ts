@@ -1,6 +1,7 @@
 // Recorded motion of a job.
 
 import {server} from './client';
+import {violationsOf} from './errors';
 
 /** A recorded column. */
 export interface Channel {
@@ -32,8 +33,25 @@ export interface SeriesQuery {
   maxPoints: number;
 }
 
-/** Asks for columns, thinned by the server so that no peak is lost. */
+/** What the first servers did not record: asking for one of these columns of a job of theirs is an error. */
+const LATER = new Set(['kinetic_energy', 'contact_energy', 'support_energy', 'dissipated_energy', 'load_work'].map((name) => `system.${name}`));
+const withoutLater = new Set<string>();   // The jobs that are known to lack them.
+
+/** Asks for columns, thinned by the server so that no peak is lost. What a job of an older server lacks is left out. */
 export async function readSeries(query: SeriesQuery, signal?: AbortSignal): Promise<Series> {
+  const recorded = query.channels.filter((channel) => !LATER.has(channel));
+  const lacks = withoutLater.has(query.name);
+  try {
+    return await readColumns(lacks ? {...query, channels: recorded} : query, signal);
+  } catch (error) {
+    const refused = violationsOf(error).some(({field}) => field.startsWith('channels'));
+    if (lacks || !refused || recorded.length === 0 || recorded.length === query.channels.length) throw error;
+    withoutLater.add(query.name);
+    return readColumns({...query, channels: recorded}, signal);
+  }
+}
+
+async function readColumns(query: SeriesQuery, signal?: AbortSignal): Promise<Series> {
   const answer = await server.getSeries({
     name: query.name,
     channels: query.channels,

@@ -59,6 +59,8 @@ export interface Panel {
   raster?: Raster;
   /** What marks and shades mean. */
   note?: string;
+  /** Why there are no curves, if that is known. */
+  nothing?: string;
 }
 
 /** Bands in order, those that touch or overlap as one. */

@@ -2,8 +2,8 @@
 
 import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
+import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
 import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
-import {energyChannels, mechanicalEnergy} from './energy';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
 import {short} from './numbers';
@@ -20,7 +20,6 @@ export interface Preset {
 
 export const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 export const MOST_CONTACTS = 12;     // With a curve each.
-export const MOST_BODIES = 200;      // Of whose energy a plot is made.
 const MOST_ROWS = 400;   // Of maps and waterfalls: the server thins less for fewer columns.
 const MOST_LABELS = 12;
 
@@ -122,12 +121,28 @@ function deformation(view: RunView, rate: boolean): Panel {
   return rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`};
 }
 
+/** What holds energy, what contacts and supports have dissipated, and the work of loads and drives. */
+const ENERGIES = [['kinetic', 'kinetic_energy'], ['contacts', 'contact_energy'], ['supports', 'support_energy'],
+  ['dissipated', 'dissipated_energy'], ['load work', 'load_work']] as const;
+
+/** True if loads or drives may do work. */
+function isDriven({loads, bodies: all, contacts}: Scenario): boolean {
+  return loads.length > 0 || all.some(({motion}) => motion) || contacts.some(({wall}) => wall?.motion);
+}
+
+/** The parts of the energy that the scenario may have, and their sum less the work of loads, which is constant. */
 function energy(view: RunView): Panel {
-  const panel = overTime(view, 'energy', 'energy [J]');
-  mechanicalEnergy(view.mechanics, view.series).forEach(({name, values: y}, colour) => {
-    panel.curves.push({label: name, colour, mark: 'line', x: values(view.series, 'time'), y});
-  });
-  return {...panel, note: 'shaded: in contact'};
+  const {series, mechanics: {scenario}} = view;
+  const panel = {...overTime(view, 'energy', 'energy [J]'), note: 'shaded: in contact'};
+  const parts = ENERGIES.map(([label, quantity]) => ({label, y: values(series, `system.${quantity}`)}));
+  if (parts.some(({y}) => y.length === 0)) {
+    return series.has('time') ? {...panel, nothing: 'This run recorded no energies: an older server made it. Run it again to see them.'} : panel;
+  }
+  const sum = parts[0]!.y.map((_, i) => parts.reduce((all, {label, y}) => all + (label === 'load work' ? -y[i]! : y[i]!), 0));
+  const absent = [scenario.supports.length === 0 && 'supports', !isDriven(scenario) && 'load work'];
+  const shown = [...parts.filter(({label}) => !absent.includes(label)), {label: 'sum less load work', y: sum}];
+  panel.curves = shown.map(({label, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y}));
+  return panel;
 }
 
 function wallLines({bodies: all, contacts}: Mechanics): number[] {
@@ -150,7 +165,7 @@ export const PRESETS: Preset[] = [
   {id: 'displacement', channels: ofBodies('position'),
     panel: (view) => bodies(view, 'position', overTime(view, 'displacement', 'displacement [m]'), (x) => x)},
   {id: 'hysteresis', channels: ofContacts('deformation', 'contact_force'), panel: hysteresis},
-  {id: 'energy', channels: energyChannels, panel: energy},
+  {id: 'energy', channels: () => ENERGIES.map(([, quantity]) => `system.${quantity}`), panel: energy},
   {id: 'deformation-velocity', channels: ofContacts('deformation_velocity'), panel: (view) => deformation(view, true)},
   {id: 'position', channels: ofBodies('position'),
     panel: (view) => ({
@@ -165,7 +180,7 @@ export const PRESETS: Preset[] = [
 /** The plots that can be made of a scenario. */
 export function presetsFor(mechanics: Mechanics): Preset[] {
   const isMany = (count: number) => count > MOST_CONTACTS && count <= MOST_ROWS;
-  return PRESETS.filter(({id, many}) => (many ? isMany(mechanics[many].length) : id !== 'energy' || mechanics.bodies.length <= MOST_BODIES));
+  return PRESETS.filter(({many}) => !many || isMany(mechanics[many].length));
 }
 
 /** Those of which the columns are asked for: where there are many, only as far as they are shown. */

@@ -3,7 +3,7 @@
 import {useEffect, useMemo} from 'preact/hooks';
 
 import {bandsOf, type RunPart} from '../../model/curves';
-import {FIRST, MOST_BODIES, MOST_CONTACTS, PRESETS, presetsFor, type Preset} from '../../model/presets';
+import {FIRST, MOST_CONTACTS, PRESETS, presetsFor, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import type {Series} from '../../api/series';
 import type {RunState} from '../../model/runState';
@@ -27,9 +27,9 @@ interface Props {
   source: string;
 }
 
-/** The part of a scenario that fits a plot. The energy is that of all bodies, and maps and waterfalls are of all. */
+/** The part of a scenario that fits a plot. Maps and waterfalls are of all bodies. */
 export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
-  return preset.id === 'energy' || preset.many ? mechanics : crop(mechanics, contact);
+  return preset.many ? mechanics : crop(mechanics, contact);
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
@@ -114,7 +114,6 @@ function Cropped({mechanics, contact}: {mechanics: Mechanics; contact: string | 
     <>
       <LeftOut shown={contacts.length} all={mechanics.contacts.length} what="contacts" way={way} />
       <LeftOut shown={bodies.length} all={mechanics.bodies.length} what="bodies" />
-      {mechanics.bodies.length > MOST_BODIES && <span class="soft">no energy of more than {MOST_BODIES} bodies</span>}
     </>
   );
 }
