@@ -15,6 +15,9 @@ export interface Curve {
   y: ArrayLike<number>;
   /** False if it has no entry in the key. */
   keyed?: boolean;
+  /** The recorded column that it shows, and what was added to its values. */
+  channel?: string;
+  offset?: number;
 }
 
 /** A stretch of the x axis. */

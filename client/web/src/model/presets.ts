@@ -7,6 +7,7 @@ import {at, endForces, line, marks, overTime, values, type RunView} from './curv
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
 import {short} from './numbers';
+import type {Measured} from './overlay';
 import {extent, type Label, type Lane, type Panel} from './panel';
 import {readableUnit, unitOf} from './units';
 
@@ -121,9 +122,18 @@ function deformation(view: RunView, rate: boolean): Panel {
   return rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`};
 }
 
+/** Why a plot of a job of an older server is empty. */
+const lacks = (what: string) => `This run recorded no ${what}: an older server made it. Run it again to see them.`;
+
 /** What holds energy, what contacts and supports have dissipated, and the work of loads and drives. */
 const ENERGIES = [['kinetic', 'kinetic_energy'], ['contacts', 'contact_energy'], ['supports', 'support_energy'],
   ['dissipated', 'dissipated_energy'], ['load work', 'load_work']] as const;
+
+function acceleration(view: RunView): Panel {
+  const panel = bodies(view, 'acceleration', overTime(view, 'acceleration', 'acceleration [m/s^2]'), () => 0);
+  if (!view.series.has('time') || view.mechanics.bodies.every(({name}) => view.series.has(`${name}.acceleration`))) return panel;
+  return {...panel, curves: [], nothing: lacks('accelerations')};
+}
 
 /** True if loads or drives may do work. */
 function isDriven({loads, bodies: all, contacts}: Scenario): boolean {
@@ -134,14 +144,14 @@ function isDriven({loads, bodies: all, contacts}: Scenario): boolean {
 function energy(view: RunView): Panel {
   const {series, mechanics: {scenario}} = view;
   const panel = {...overTime(view, 'energy', 'energy [J]'), note: 'shaded: in contact'};
-  const parts = ENERGIES.map(([label, quantity]) => ({label, y: values(series, `system.${quantity}`)}));
+  const parts = ENERGIES.map(([label, quantity]) => ({label, channel: `system.${quantity}`, y: values(series, `system.${quantity}`)}));
   if (parts.some(({y}) => y.length === 0)) {
-    return series.has('time') ? {...panel, nothing: 'This run recorded no energies: an older server made it. Run it again to see them.'} : panel;
+    return series.has('time') ? {...panel, nothing: lacks('energies')} : panel;
   }
   const sum = parts[0]!.y.map((_, i) => parts.reduce((all, {label, y}) => all + (label === 'load work' ? -y[i]! : y[i]!), 0));
   const absent = [scenario.supports.length === 0 && 'supports', !isDriven(scenario) && 'load work'];
-  const shown = [...parts.filter(({label}) => !absent.includes(label)), {label: 'sum less load work', y: sum}];
-  panel.curves = shown.map(({label, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y}));
+  const shown = [...parts.filter(({label}) => !absent.includes(label)), {label: 'sum less load work', channel: '', y: sum}];
+  panel.curves = shown.map(({label, channel, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y, channel}));
   return panel;
 }
 
@@ -172,10 +182,17 @@ export const PRESETS: Preset[] = [
       ...bodies(view, 'position', overTime(view, 'position', 'position [m]'), () => 0),
       dottedLines: wallLines(view.mechanics),
     })},
+  {id: 'acceleration', channels: ofBodies('acceleration'), panel: acceleration},
   {id: 'velocity-map', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, false), many: 'bodies'},
   {id: 'force-waterfall', channels: ofContacts('contact_force'), panel: (view) => rowsOf(view, false, true), many: 'contacts'},
   {id: 'velocity-waterfall', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, true), many: 'bodies'},
 ];
+
+/** The plots of the page: the first ones, those of measured channels, or all. */
+export function presetsShown(mechanics: Mechanics, all: boolean, measured: Measured | undefined): Preset[] {
+  return presetsFor(mechanics).filter(({channels}, place) =>
+    all || place < FIRST || (measured && channels(mechanics).some((channel) => measured.has(channel))));
+}
 
 /** The plots that can be made of a scenario. */
 export function presetsFor(mechanics: Mechanics): Preset[] {
