@@ -149,6 +149,6 @@ test('an address brings back the whole view', async () => {
   assert.equal(await chosen('Episode'), '2');
   assert.equal(await chosen('Show'), 'groups');
   await page.getByText('0.002 … 0.008 s').waitFor();
-  assert.equal(await page.locator('.plot').count(), 10);
+  assert.equal(await page.locator('.plot').count(), 11);
   await page.context().close();
 });

@@ -196,6 +196,24 @@ test('keys move the moment, and every plot over time tells its values there', as
   }
 });
 
+test('a job of an older server has all its plots but that of energies, which says why', async () => {
+  await page.route('**/GetSeries', async (route) => {
+    if (!route.request().postDataBuffer().includes('system.kinetic_energy')) return route.continue();
+    const unknown = JSON.stringify({name: `jobs/${chain}`, channels: ['system.not_recorded_then']});
+    return route.fulfill({response: await page.request.post(`${server.origin}/contact.v1.JobService/GetSeries`, {data: unknown, headers: {'content-type': 'application/json'}})});
+  });
+  await open(`/runs/${chain}`);
+  await drawn();
+  await page.locator('[data-plot="energy"]').getByText('This run recorded no energies').waitFor();
+  await page.unrouteAll();
+  await page.reload();
+  await hold(async () => await points('energy') > 100);
+  const curves = await page.locator('[data-plot="energy"] .key button').allInnerTexts();
+  assert.deepEqual(curves.map((text) => text.trim()), ['kinetic', 'contacts', 'dissipated', 'sum less load work']);
+  const sums = (await fileOf('Energy balance', 'CSV')).split('\n').filter((row) => row.startsWith('sum')).map((row) => Number(row.split(',')[2]));
+  assert.ok(Math.max(...sums) - Math.min(...sums) < 1e-9 * 0.5 * 0.5 * 0.2 ** 2, 'the balance is constant');
+});
+
 test('a point of the line of a sweep is chosen and becomes a run', async () => {
   const {name} = await server.call('CreateJob', {job: {sweep: {base: CHAIN, metrics: ['iterations', 'cycles[B1-B2].alpha'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}]}}});

@@ -21,12 +21,36 @@ function serverOf(origin: string): {address: string; secure: boolean} {
   return {address: `${hostname}:${port || (secure ? 443 : 80)}`, secure};
 }
 
+/** contactctl with the server of a page. */
+function contactctl(origin: string): string {
+  const {address, secure} = serverOf(origin);
+  return `contactctl --server ${address}${secure ? ` --tls-ca ${AUTHORITIES}` : ''}`;
+}
+
+/** How a file of measurements is compared with a job. */
+export interface MeasuredComparison {
+  job: string;
+  file: string;
+  maps: string[];
+  /** Given, or looked for in a range. */
+  shift: number | undefined;
+  within: [number, number];
+  relative: number;
+  absolute: number;
+}
+
+/** The same comparison by contactctl. */
+export function measuredAsCli({job, file, maps, shift, within, relative, absolute}: MeasuredComparison, origin: string): string {
+  const tolerance = [...(relative === 0.05 ? [] : [`--rel=${relative}`]), ...(absolute === 0 ? [] : [`--abs=${absolute}`])];
+  const words = ['compare', job.replace('jobs/', ''), file, ...maps.map((map) => `--map=${map}`),
+    shift === undefined ? `--fit-shift=${within.join(':')}` : `--shift=${shift}`, ...tolerance];
+  return `${contactctl(origin)} ${words.map(quoted).join(' ')}`;
+}
+
 /** For contactctl; needs no file. */
 export function asCli(text: string, kind: 'scenario' | 'sweep', origin: string, labels: Labels = {}): string {
-  const {address, secure} = serverOf(origin);
-  const server = `--server ${address}${secure ? ` --tls-ca ${AUTHORITIES}` : ''}`;
   const options = Object.entries(labels).map(([key, value]) => ` --label ${quoted(`${key}=${value}`)}`).join('');
-  return `contactctl ${server} ${kind === 'sweep' ? 'sweep run' : 'run'} -${options} <<'END'\n${text.trimEnd()}\nEND\n`;
+  return `${contactctl(origin)} ${kind === 'sweep' ? 'sweep run' : 'run'} -${options} <<'END'\n${text.trimEnd()}\nEND\n`;
 }
 
 /** JSON as a literal of Python. */

@@ -64,7 +64,7 @@ export function overTime({bands, cycles}: RunView, id: keyof typeof look.titles,
 export function line(view: RunView, channel: string, label: string, colour: number, offset = 0): Curve {
   const column = values(view.series, channel);
   const y = offset === 0 ? column : column.map((value) => value + offset);
-  return {label, colour, mark: 'line', x: values(view.series, 'time'), y};
+  return {label, colour, mark: 'line', x: values(view.series, 'time'), y, channel, offset};
 }
 
 /** Circles where cycles start and crosses where they end. */

@@ -1,4 +1,4 @@
-// A scenario with what follows from it: masses, contacts one by one, stiffnesses.
+// A scenario with what follows from it: places, contacts one by one, stiffnesses.
 
 import {
   Contact_Damping, Solver_Tension, Wall_Side, type Contact, type Material, type Scenario,
@@ -6,7 +6,6 @@ import {
 
 export interface BodyModel {
   name: string;
-  mass: number;
   radius: number;
   position: number;
   fixed: boolean;
@@ -34,10 +33,6 @@ export interface Mechanics {
   clipTension: boolean;
 }
 
-function massOf(mass: number | undefined, density: number | undefined, radius: number): number {
-  return mass ?? (density === undefined ? NaN : (4 / 3) * Math.PI * radius ** 3 * density);
-}
-
 function compliance(material: Material | undefined): number {
   return material ? (1 - (material.poissonRatio ?? NaN) ** 2) / material.youngsModulusPa : NaN;
 }
@@ -56,7 +51,6 @@ function bodiesOf(scenario: Scenario): BodyModel[] {
     const beside = before.get(body.nextTo);
     const made = {
       name: body.name,
-      mass: massOf(body.massKg, body.densityKgPerM3, radius),
       radius,
       position: beside ? beside.position + beside.radius + radius + body.gapM : body.positionM,
       fixed: body.fixed || body.motion !== undefined,

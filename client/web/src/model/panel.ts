@@ -15,6 +15,9 @@ export interface Curve {
   y: ArrayLike<number>;
   /** False if it has no entry in the key. */
   keyed?: boolean;
+  /** The recorded column that it shows, and what was added to its values. */
+  channel?: string;
+  offset?: number;
 }
 
 /** A stretch of the x axis. */
@@ -59,6 +62,8 @@ export interface Panel {
   raster?: Raster;
   /** What marks and shades mean. */
   note?: string;
+  /** Why there are no curves, if that is known. */
+  nothing?: string;
 }
 
 /** Bands in order, those that touch or overlap as one. */

@@ -2,11 +2,12 @@
 
 import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
+import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
 import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
-import {energyChannels, mechanicalEnergy} from './energy';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
 import {short} from './numbers';
+import type {Measured} from './overlay';
 import {extent, type Label, type Lane, type Panel} from './panel';
 import {readableUnit, unitOf} from './units';
 
@@ -20,7 +21,6 @@ export interface Preset {
 
 export const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 export const MOST_CONTACTS = 12;     // With a curve each.
-export const MOST_BODIES = 200;      // Of whose energy a plot is made.
 const MOST_ROWS = 400;   // Of maps and waterfalls: the server thins less for fewer columns.
 const MOST_LABELS = 12;
 
@@ -122,12 +122,37 @@ function deformation(view: RunView, rate: boolean): Panel {
   return rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`};
 }
 
+/** Why a plot of a job of an older server is empty. */
+const lacks = (what: string) => `This run recorded no ${what}: an older server made it. Run it again to see them.`;
+
+/** What holds energy, what contacts and supports have dissipated, and the work of loads and drives. */
+const ENERGIES = [['kinetic', 'kinetic_energy'], ['contacts', 'contact_energy'], ['supports', 'support_energy'],
+  ['dissipated', 'dissipated_energy'], ['load work', 'load_work']] as const;
+
+function acceleration(view: RunView): Panel {
+  const panel = bodies(view, 'acceleration', overTime(view, 'acceleration', 'acceleration [m/s^2]'), () => 0);
+  if (!view.series.has('time') || view.mechanics.bodies.every(({name}) => view.series.has(`${name}.acceleration`))) return panel;
+  return {...panel, curves: [], nothing: lacks('accelerations')};
+}
+
+/** True if loads or drives may do work. */
+function isDriven({loads, bodies: all, contacts}: Scenario): boolean {
+  return loads.length > 0 || all.some(({motion}) => motion) || contacts.some(({wall}) => wall?.motion);
+}
+
+/** The parts of the energy that the scenario may have, and their sum less the work of loads, which is constant. */
 function energy(view: RunView): Panel {
-  const panel = overTime(view, 'energy', 'energy [J]');
-  mechanicalEnergy(view.mechanics, view.series).forEach(({name, values: y}, colour) => {
-    panel.curves.push({label: name, colour, mark: 'line', x: values(view.series, 'time'), y});
-  });
-  return {...panel, note: 'shaded: in contact'};
+  const {series, mechanics: {scenario}} = view;
+  const panel = {...overTime(view, 'energy', 'energy [J]'), note: 'shaded: in contact'};
+  const parts = ENERGIES.map(([label, quantity]) => ({label, channel: `system.${quantity}`, y: values(series, `system.${quantity}`)}));
+  if (parts.some(({y}) => y.length === 0)) {
+    return series.has('time') ? {...panel, nothing: lacks('energies')} : panel;
+  }
+  const sum = parts[0]!.y.map((_, i) => parts.reduce((all, {label, y}) => all + (label === 'load work' ? -y[i]! : y[i]!), 0));
+  const absent = [scenario.supports.length === 0 && 'supports', !isDriven(scenario) && 'load work'];
+  const shown = [...parts.filter(({label}) => !absent.includes(label)), {label: 'sum less load work', channel: '', y: sum}];
+  panel.curves = shown.map(({label, channel, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y, channel}));
+  return panel;
 }
 
 function wallLines({bodies: all, contacts}: Mechanics): number[] {
@@ -150,22 +175,29 @@ export const PRESETS: Preset[] = [
   {id: 'displacement', channels: ofBodies('position'),
     panel: (view) => bodies(view, 'position', overTime(view, 'displacement', 'displacement [m]'), (x) => x)},
   {id: 'hysteresis', channels: ofContacts('deformation', 'contact_force'), panel: hysteresis},
-  {id: 'energy', channels: energyChannels, panel: energy},
+  {id: 'energy', channels: () => ENERGIES.map(([, quantity]) => `system.${quantity}`), panel: energy},
   {id: 'deformation-velocity', channels: ofContacts('deformation_velocity'), panel: (view) => deformation(view, true)},
   {id: 'position', channels: ofBodies('position'),
     panel: (view) => ({
       ...bodies(view, 'position', overTime(view, 'position', 'position [m]'), () => 0),
       dottedLines: wallLines(view.mechanics),
     })},
+  {id: 'acceleration', channels: ofBodies('acceleration'), panel: acceleration},
   {id: 'velocity-map', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, false), many: 'bodies'},
   {id: 'force-waterfall', channels: ofContacts('contact_force'), panel: (view) => rowsOf(view, false, true), many: 'contacts'},
   {id: 'velocity-waterfall', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, true), many: 'bodies'},
 ];
 
+/** The plots of the page: the first ones, those of measured channels, or all. */
+export function presetsShown(mechanics: Mechanics, all: boolean, measured: Measured | undefined): Preset[] {
+  return presetsFor(mechanics).filter(({channels}, place) =>
+    all || place < FIRST || (measured && channels(mechanics).some((channel) => measured.has(channel))));
+}
+
 /** The plots that can be made of a scenario. */
 export function presetsFor(mechanics: Mechanics): Preset[] {
   const isMany = (count: number) => count > MOST_CONTACTS && count <= MOST_ROWS;
-  return PRESETS.filter(({id, many}) => (many ? isMany(mechanics[many].length) : id !== 'energy' || mechanics.bodies.length <= MOST_BODIES));
+  return PRESETS.filter(({many}) => !many || isMany(mechanics[many].length));
 }
 
 /** Those of which the columns are asked for: where there are many, only as far as they are shown. */

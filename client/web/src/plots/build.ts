@@ -27,8 +27,11 @@ const SOLID: number[] = [];
 
 /** The curves that uPlot draws. */
 export function lines(panel: Panel): Curve[] {
-  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end') : [];
+  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end' && mark !== 'points') : [];
 }
+
+/** The curves that are dots over others. */
+export const dotted = (panel: Panel) => panel.curves.filter(({mark}) => mark === 'points');
 
 /** Columns on one x axis, as uPlot takes them. */
 export function aligned(panel: Panel): uPlot.AlignedData {

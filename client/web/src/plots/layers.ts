@@ -11,6 +11,7 @@ import {crowded, endNames, placeLabels, shortName} from './words';
 
 export const LANE_PX = 10;
 const MARK_PX = 4.5;
+const DOT_PX = 2.2;
 
 interface Sheet {
   u: uPlot;
@@ -110,6 +111,23 @@ function drawMarks({u, theme}: Sheet, curve: Curve): void {
   ctx.stroke();
 }
 
+/** Dots with a rim, so that they are seen on their curve. */
+function drawDots({u, theme, ink}: Sheet, {x, y, colour}: Curve): void {
+  const {ctx} = u;
+  const r = DOT_PX * devicePixelRatio;
+  ctx.beginPath();
+  for (let i = 0; i < x.length; ++i) {
+    const [a, b] = [px(u, x[i]!), py(u, y[i]!)];
+    ctx.moveTo(a + r, b);
+    ctx.arc(a, b, r, 0, 2 * Math.PI);
+  }
+  ctx.fillStyle = colourOf(colour, theme);
+  ctx.strokeStyle = ink.paper;
+  ctx.lineWidth = 1.5 * devicePixelRatio;
+  ctx.stroke();
+  ctx.fill();
+}
+
 function drawLoop({u, theme}: Sheet, curve: Curve): void {
   const {ctx} = u;
   ctx.beginPath();
@@ -164,6 +182,7 @@ export function drawOver(sheet: Sheet, hidden: Set<string>, named: boolean): voi
       const owner = curve.label.replace(/ (starts|ends)$/, '').replace(/,.*| #.*$/, '');
       if (hidden.has(owner) || hidden.has(curve.label)) continue;
       if (curve.mark === 'start' || curve.mark === 'end') drawMarks(sheet, curve);
+      else if (curve.mark === 'points') drawDots(sheet, curve);
       else if (!panel.overTime) drawLoop(sheet, curve);
     }
     drawLabels(sheet);

@@ -129,7 +129,7 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
         <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
       <div ref={box} class={choosing ? 'canvas keys' : 'canvas'} {...(choosing ? choosable(choosing, plot) : {role: 'img', 'aria-label': namesOf(panel)})} />
-      {!points && <p class="nothing">{empty ?? 'Nothing to show yet.'}</p>}
+      {!points && <p class="nothing">{panel.nothing ?? empty ?? 'Nothing to show yet.'}</p>}
       <Key panel={panel} hidden={hidden} setHidden={setHidden} reading={reading} />
       <output class="hidden" ref={(at) => { reading.words = at; }} />
       {panel.note && <p class="note">{panel.note}</p>}

@@ -10,7 +10,7 @@ const drawn = (panel: Panel) => panel.curves.filter(({mark}) => mark !== 'start'
 /** The x axis: the window, or all there is. */
 export function xRange(panel: Panel, window: Window | undefined): Window {
   if (window && panel.overTime && !panel.countedX) return window;
-  const found = extent([...drawn(panel).map(({x}) => x), panel.raster?.time ?? []], panel.logX) ?? [0, 1];
+  const found = extent([...drawn(panel).filter(({mark}) => mark !== 'points').map(({x}) => x), panel.raster?.time ?? []], panel.logX) ?? [0, 1];
   if (panel.overTime) return found[0] < found[1] ? found : [found[0], found[0] + (panel.countedX ? 1 : 1e-9)];
   return padded(found, !!panel.logX);
 }

@@ -6,7 +6,7 @@ import type {Curve, Panel} from '../model/panel';
 import {waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
-import {lines, NAMED_FROM_PX} from './build';
+import {dotted, lines, NAMED_FROM_PX} from './build';
 import {LANE_PX, pictureOf} from './layers';
 import {crowded, endNames, placeLabels, shortName} from './words';
 
@@ -69,9 +69,15 @@ function strokeOf({mark, colour}: Curve): string {
   return `stroke="${colourOf(colour, 'light')}" stroke-width="1.5"${dash.length ? ` stroke-dasharray="${dash.join(' ')}"` : ''}`;
 }
 
+function dots({x: xs, y: ys, colour}: Curve, x: Frame['x'], y: Frame['y']): string {
+  const path = Array.from(xs, (value, i) => `M${r(x(value) + 2)} ${r(y(ys[i]!))}a2 2 0 1 0 -4 0a2 2 0 1 0 4 0`).join('');
+  return `<path d="${path}" fill="${colourOf(colour, 'light')}" stroke="#fff" stroke-width="0.7"/>`;
+}
+
 function curve({u, x, y}: Frame, drawn: Curve): string {
   const {mark, x: xs, y: ys} = drawn;
   if ((mark === 'start' || mark === 'end') && crowded(u, drawn)) return '';
+  if (mark === 'points') return dots(drawn, x, y);
   let path = '';
   for (let i = 0; i < xs.length; ++i) {
     const [a, b] = [x(xs[i]!), y(ys[i]!)];
@@ -131,10 +137,13 @@ export function wrapped(words: string[], letters: number): string[] {
   return lines;
 }
 
+const same = (value: number) => value;
+
 /** Swatches and names of the curves that have no name beside them, from left to right, as many in a line as fit. */
 function keyOf(panel: Panel, named: boolean, left: number, room: number): {lines: number; draw: (top: number) => string} {
   let [x, line] = [0, 0];
-  const places = lines(panel).filter(({mark, label}) => !named || mark === 'dashed' || shortName(label) !== label).map((drawn) => {
+  const listed = [...lines(panel).filter(({mark, label}) => !named || mark === 'dashed' || shortName(label) !== label), ...dotted(panel)];
+  const places = listed.map((drawn) => {
     const width = SWATCH_PX + LETTER_PX * drawn.label.length + 14;
     if (x > 0 && x + width > room) [x, line] = [0, line + 1];
     x += width;
@@ -142,7 +151,7 @@ function keyOf(panel: Panel, named: boolean, left: number, room: number): {lines
   });
   const draw = (top: number) => places.map(({drawn, x: at, line: row}) => {
     const y = top + LINE_PX * row;
-    return `<path d="M${r(at)} ${r(y - 3)}h${SWATCH_PX - 4}" ${strokeOf(drawn)}/><text x="${r(at + SWATCH_PX)}" y="${r(y)}" font-size="10" fill="#333">${escape(drawn.label)}</text>`;
+    return `${drawn.mark === 'points' ? dots({...drawn, x: [at + SWATCH_PX - 8], y: [y - 3]}, same, same) : `<path d="M${r(at)} ${r(y - 3)}h${SWATCH_PX - 4}" ${strokeOf(drawn)}/>`}<text x="${r(at + SWATCH_PX)}" y="${r(y)}" font-size="10" fill="#333">${escape(drawn.label)}</text>`;
   }).join('');
   return {lines: places.length > 0 ? line + 1 : 0, draw};
 }

@@ -14,7 +14,7 @@ export function shortName(label: string): string {
 /** Names of curves beside their right ends, so that colour is not needed to tell them. */
 export function endNames(u: uPlot, curves: Curve[], height: number, line: number, toY: (y: number) => number): {curve: Curve; y: number}[] {
   const {min, max} = u.scales.x!;
-  const names = curves.filter(({keyed, mark}) => keyed !== false && mark !== 'dashed').flatMap((curve) => {
+  const names = curves.filter(({keyed, mark}) => keyed !== false && mark !== 'dashed' && mark !== 'points').flatMap((curve) => {
     let last = curve.x.length - 1;
     while (last >= 0 && (curve.x[last]! > (max ?? Infinity) || !Number.isFinite(curve.y[last]!))) --last;
     return last < 0 || curve.x[last]! < (min ?? -Infinity) ? [] : [{curve, y: toY(curve.y[last]!)}];

@@ -3,8 +3,9 @@
 import {useEffect, useMemo} from 'preact/hooks';
 
 import {bandsOf, type RunPart} from '../../model/curves';
-import {FIRST, MOST_BODIES, MOST_CONTACTS, PRESETS, presetsFor, type Preset} from '../../model/presets';
+import {MOST_CONTACTS, presetsShown, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
+import {withMeasured, type Measured as MeasuredPoints} from '../../model/overlay';
 import type {Series} from '../../api/series';
 import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
@@ -25,11 +26,12 @@ interface Props {
   drawn: Window | undefined;
   whole: Window;
   source: string;
+  measured: MeasuredPoints | undefined;
 }
 
-/** The part of a scenario that fits a plot. The energy is that of all bodies, and maps and waterfalls are of all. */
+/** The part of a scenario that fits a plot. Maps and waterfalls are of all bodies. */
 export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
-  return preset.id === 'energy' || preset.many ? mechanics : crop(mechanics, contact);
+  return preset.many ? mechanics : crop(mechanics, contact);
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
@@ -62,15 +64,17 @@ interface PresetProps {
   part: RunPart;
   contact: string | null;
   drawn: Window | undefined;
+  measured: MeasuredPoints | undefined;
   source: string;
   /** What to say where nothing is drawn. */
   empty: string;
 }
 
-function PresetPlot({preset, mechanics: all, part, contact, ...rest}: PresetProps) {
+function PresetPlot({preset, mechanics: all, part, contact, measured, drawn, ...rest}: PresetProps) {
   const mechanics = useMemo(() => partFor(preset, all, contact), [all, contact]);
   const panel = useMemo(() => preset.panel({mechanics, ...part}), [part, mechanics]);
-  return <Plot panel={panel} window={rest.drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} />;
+  const shown = useMemo(() => withMeasured(panel, measured, drawn), [panel, measured, drawn?.[0], drawn?.[1]]);
+  return <Plot panel={shown} window={drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} />;
 }
 
 /** Zoom by buttons and keys, for those who do not drag. */
@@ -114,21 +118,20 @@ function Cropped({mechanics, contact}: {mechanics: Mechanics; contact: string | 
     <>
       <LeftOut shown={contacts.length} all={mechanics.contacts.length} what="contacts" way={way} />
       <LeftOut shown={bodies.length} all={mechanics.bodies.length} what="bodies" />
-      {mechanics.bodies.length > MOST_BODIES && <span class="soft">no energy of more than {MOST_BODIES} bodies</span>}
     </>
   );
 }
 
 export function Motion(props: Props) {
-  const {mechanics, query, window, drawn, whole, run, source} = props;
+  const {mechanics, query, window, drawn, whole, run, source, measured} = props;
   const all = query.get('plots') === 'all';
   const contact = query.get('contact');
   const part = usePart(props);
   const loops = useLoops(run.job!.name, useMemo(() => crop(mechanics, contact), [mechanics, contact]), part, isFinal(run.state));
   const looped = useMemo(() => ({...part, loops}), [part, loops]);
   const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
-  const plots = useMemo(() => presetsFor(mechanics).slice(0, all ? PRESETS.length : FIRST).map((preset) => (
-    <PresetPlot key={preset.id} {...{preset, mechanics, contact, drawn, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, source, empty]);
+  const plots = useMemo(() => presetsShown(mechanics, all, measured).map((preset) => (
+    <PresetPlot key={preset.id} {...{preset, mechanics, contact, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, measured, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>

@@ -1,9 +1,10 @@
 // One job: a run, or a sweep.
 
-import {useEffect, useMemo} from 'preact/hooks';
+import {useEffect, useMemo, useState} from 'preact/hooks';
 
 import {isFinal} from '../../api/watch';
 import {mechanicsOf, type Mechanics} from '../../model/mechanics';
+import type {Measured} from '../../model/overlay';
 import {presetsAsked} from '../../model/presets';
 import type {RunState} from '../../model/runState';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
@@ -15,6 +16,7 @@ import {Details} from './details';
 import {Header} from './header';
 import {Iterations} from './iterations';
 import {Ledger} from './ledger';
+import {Measurements} from './measured/drop';
 import {Motion, partFor} from './motion';
 import {StripView, stripChannels} from './strip_view';
 import {useRun} from './use_run';
@@ -42,12 +44,16 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.
   const strip = useMemo(() => <StripView mechanics={mechanics} series={series} query={choice} />, [mechanics, series, choice]);
   const iterations = useMemo(() => <Iterations run={run} query={choice} source={source} />, [run, choice, source]);
+  const [measured, setMeasured] = useState<Measured>();
+  const measurements = useMemo(() => recorded && isFinal(run.state) && newest > 0 && (
+    <Measurements name={run.job!.name} end={newest} query={choice} onMeasured={setMeasured} />), [run.job!.name, newest, recorded, isFinal(run.state), choice]);
   const ledger = useMemo(() => <Ledger run={run} query={choice} />, [run, choice]);
   return (
     <>
       {recorded && strip}
       {iterations}
-      {recorded ? <Motion run={run} mechanics={mechanics} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {measurements}
+      {recorded ? <Motion run={run} mechanics={mechanics} measured={measured} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
       {ledger}
     </>

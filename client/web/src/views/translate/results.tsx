@@ -1,24 +1,12 @@
 // What models of other simulators want for a contact, and what each of them really delivers.
 
-import {useState} from 'preact/hooks';
-
 import type {ModelTranslation} from '../../api/generated/contact/v1/model_service_pb';
 import {compact, exact, short} from '../../model/numbers';
 import {differenceOf, reboundOf} from '../../model/translation';
+import {Copy} from '../../ui/copy';
 
 const DIGITS = 8;
 const ratio = (value: number | undefined) => (value === undefined || Number.isNaN(value) ? '–' : value.toFixed(5));
-
-/** Copies a text; says so until the pointer or the focus leaves. */
-export function Copy({text, what}: {text: string; what: string}) {
-  const [said, setSaid] = useState('');
-  const copy = () => {
-    const copied = navigator.clipboard?.writeText(text) ?? Promise.reject(new Error('no clipboard'));
-    copied.then(() => setSaid('Copied'), () => setSaid('Mark the text to copy it'));
-  };
-  return <button type="button" aria-label={said ? undefined : `Copy ${what}`} onClick={copy} onBlur={() => setSaid('')} onMouseLeave={() => setSaid('')}>
-    <span role="status">{said || 'Copy'}</span></button>;
-}
 
 function Parameters({found}: {found: ModelTranslation}) {
   if (found.parameters.length === 0) return <span class="soft">none</span>;

@@ -4,9 +4,10 @@ import type {ModelTranslation} from '../../api/generated/contact/v1/model_servic
 import {commandOf, inputsOf, queryOf, requestOf, wordsAmong} from '../../model/translation';
 import {count} from '../../model/numbers';
 import {LeftOut} from '../../ui/left_out';
+import {Copy} from '../../ui/copy';
 import {setQuery, type Route} from '../../ui/route';
 import {Inputs} from './inputs';
-import {Copy, Rebounds, Translations} from './results';
+import {Rebounds, Translations} from './results';
 import {useTranslation} from './use_translation';
 import './translate.css';
 
