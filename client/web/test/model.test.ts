@@ -54,6 +54,11 @@ describe('mechanics', () => {
     expect(contacts[3]).toMatchObject({wallBody: 'stop', wallOrigin: 1.3});
     expect(contacts[3]!.wallPosition).toBeCloseTo(1.8, 12);  // Where the edge of b, 0.2 m from its centre, meets it.
   });
+  it('take the straight line to the last point of a table', () => {
+    const forceTable = {deformationsM: [1e-3, 2e-3], forcesN: [5, 40]};
+    const cushion = create(ScenarioSchema, {bodies: ['a', 'b'].map((name) => ({name})), contacts: [{between: ['a', 'b'], damping: Contact_Damping.FORCE_TABLE, forceTable}]});
+    expect(mechanicsOf(cushion).contacts[0]).toMatchObject({stiffness: 2e4, exponent: 1});
+  });
   it('give the force at the ends of a cycle', () => {
     expect(endForce(mechanics, mechanics.contacts[0]!, 5, 0.01, 1)).toBeCloseTo(1e6 * 0.01 ** 1.5);
     expect(endForce(mechanics, mechanics.contacts[1]!, 5, 0, 2)).toBe(10);

@@ -3,7 +3,7 @@
 import look from '../../../python/contactsim/figures/words.json';
 import type {Series} from '../api/series';
 import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
-import {endForce, type ContactModel, type Mechanics} from './mechanics';
+import {endForce, tabled, type ContactModel, type Mechanics} from './mechanics';
 import {count} from './numbers';
 import {interpolate, joined, type Band, type Curve, type Panel} from './panel';
 
@@ -82,9 +82,11 @@ export function marks(
 /** The forces at the start and at the end of a cycle of the contact. */
 export function endForces(view: RunView, contact: ContactModel): [(c: Cycle) => number, (c: Cycle) => number] {
   const {mechanics, series} = view;
+  const sampled = (time: number) => at(series, `${contact.name}.contact_force`, time);
   return [
-    (c) => endForce(mechanics, contact, c.mu, c.deltaStartM, c.approachVelocityMPerS),
-    (c) => (c.end === Cycle_End.RUN_END ? at(series, `${contact.name}.contact_force`, c.endTimeS)
+    (c) => (tabled(contact) && c.deltaStartM > 0 ? sampled(c.startTimeS)
+      : endForce(mechanics, contact, c.mu, c.deltaStartM, c.approachVelocityMPerS)),
+    (c) => (c.end === Cycle_End.RUN_END || (tabled(contact) && c.deltaEndM > 0) ? sampled(c.endTimeS)
       : endForce(mechanics, contact, c.mu, c.deltaEndM, c.separationVelocityMPerS)),
   ];
 }

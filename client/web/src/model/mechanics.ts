@@ -100,13 +100,19 @@ function contactsOf(scenario: Scenario, bodies: BodyModel[]): ContactModel[] {
         wallPosition: wallFace(contact, first < 0, bodies[Math.max(first, second)]?.radius ?? 0),
         wallBody: contact.wall?.motion ? name.replace(contact.clearanceM === undefined ? '' : /-(left|right)$/, '') : '',
         wallOrigin: contact.wall?.positionM ?? NaN,
-        stiffness: contact.stiffness ?? hertz([side(first), other]),
-        exponent: contact.exponent ?? 1.5,
+        stiffness: contact.stiffness ?? (tabled(contact) ? lineOf(contact) : hertz([side(first), other])),
+        exponent: contact.exponent ?? (tabled(contact) ? 1 : 1.5),
         damping: contact.damping,
         restitution: contact.restitution ?? NaN,
       };
     }));
 }
+
+/** Whether the force of a contact is a table, which depends on what it has borne. */
+export const tabled = ({damping}: {damping: Contact_Damping}): boolean => damping === Contact_Damping.FORCE_TABLE;
+
+/** The slope of the straight line to the last point of a table. */
+const lineOf = ({forceTable}: Contact) => (forceTable?.forcesN.at(-1) ?? NaN) / (forceTable?.deformationsM.at(-1) ?? NaN);
 
 /** Resolves what a scenario leaves to defaults. */
 export function mechanicsOf(scenario: Scenario): Mechanics {
