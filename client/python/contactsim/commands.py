@@ -17,10 +17,11 @@ from .errors import (ContactError, InvalidScenario, JobNotFound, NotAllowed, Ove
                      Unreachable)
 from .figures import PRESETS, Figure, FigureError, channels_figure, preset_figure
 from .figures.axes import require_units
+from .figures.coarse import FEW_SAMPLES, coarse_cycles
 from .figures.figure import Curve, Kind, Panel, points_csv
 from .figures.look import Look, parse_font, parse_size
 from .figures.overlay import measured_figure, overlay_figure
-from .figures.shown import FEW_SAMPLES, Part, samples_in
+from .figures.shown import Part
 from .figures.sources import printable
 from .figures.sweeps import heat_map, require_map, sweep_line
 from .pages import write_report
@@ -190,8 +191,7 @@ def _tell_coarse(result: Result) -> None:
     """Of cycles that have too few samples to be seen, and the command that records more."""
     if "time" not in result.arrays:
         return
-    coarse = sum(samples_in(cycle, result["time"]) < FEW_SAMPLES for cycle in result.job.cycles
-                 if cycle.end != type(cycle).RUN_END)
+    coarse = len(coarse_cycles(result.job.cycles, result["time"]))
     if coarse:
         cycles = "contact cycle has" if coarse == 1 else "contact cycles have"
         _tell(f"{coarse} {cycles} fewer than {FEW_SAMPLES} samples, too few to show. For more:\n"

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import Callable, Sequence
 
 import numpy as np
 from contact.v1 import job_pb2, scenario_pb2
 
 from ..model import Array, ContactLaw
-from .figure import Curve, Label, Mark, Panel
-from .shown import FEW_SAMPLES, Shown, samples_in
+from .coarse import FEW_SAMPLES, coarse_cycles, ranges, samples_in, stamp
+from .figure import Curve, Label, Mark, Panel, Range
+from .shown import Shown
 
 _MOST_LABELS = 12  # More would hide the curves.
 _APART = 0.02  # Of the time shown: the height of a label that is upright.
@@ -23,10 +25,12 @@ def force(run: Shown) -> Panel:
     for colour, law in run.contacts:
         ends = _Ends(run, law)
         panel.curves += [
-            run.curve(run.column(f"{law.name}.contact_force"), law.name, colour),
+            run.curve(run.column(f"{law.name}.contact_force"), law.name, colour,
+                      contacts=[law.name]),
             run.curve(run.column(f"{law.name}.external_force"), f"{law.name} equivalent external",
-                      colour, Mark.DASHED),
+                      colour, Mark.DASHED, contacts=[law.name]),
             *run.marks(law.name, law.name, colour, ends.start_force, ends.end_force)]
+        panel.ranges += contact_ranges(run, law, "contact_force", colour)
     panel.labels = _peaks(run, panel)
     return panel
 
@@ -37,7 +41,8 @@ def deformation_velocity(run: Shown) -> Panel:
     for colour, law in run.contacts:
         ends = _Ends(run, law)
         panel.curves += [
-            run.curve(run.column(f"{law.name}.deformation_velocity"), law.name, colour),
+            run.curve(run.column(f"{law.name}.deformation_velocity"), law.name, colour,
+                      contacts=[law.name]),
             *run.marks(law.name, law.name, colour,
                        lambda cycle: cycle.approach_velocity_m_per_s, ends.end_rate)]
     return panel
@@ -45,8 +50,8 @@ def deformation_velocity(run: Shown) -> Panel:
 
 def hysteresis(run: Shown) -> Panel:
     """F over δ: a loop for each cycle that has a sample, from where to where the ledger says. Its area
-    is the energy lost."""
-    panel = Panel("deformation [m]", "contact force [N]")
+    is the energy lost. Of a cycle with too few samples there are points."""
+    panel = Panel("deformation [m]", "contact force [N]", stamp=stamp(run))
     for colour, law in run.contacts:
         loops = [(cycle, _loop(run, law, cycle)) for _, cycle in run.cycles(law.name)]
         first = True  # It alone is in the key.
@@ -54,12 +59,26 @@ def hysteresis(run: Shown) -> Panel:
             if not len(delta):
                 continue
             label = law.name if first else f"{law.name} #{cycle.number}"
+            few = bool(coarse_cycles([cycle], run.column("time")))
             panel.curves += [
-                Curve(label, colour, delta, values, keyed=first),
+                Curve(label, colour, delta, values, Mark.RARE if few else Mark.LINE, first),
                 Curve(f"{label} starts", colour, delta[:1], values[:1], Mark.START, False),
                 Curve(f"{label} ends", colour, delta[-1:], values[-1:], Mark.END, False)]
             first = False
     return panel
+
+
+def contact_ranges(run: Shown, law: ContactLaw, quantity: str, colour: int) -> list[Range]:
+    """From which to which value a quantity of a contact goes in cycles with too few samples: from the
+    lower end to the peak of the ledger. None of other quantities, whose extremes it does not tell."""
+    ends = _Ends(run, law)
+    values: dict[str, Callable[[job_pb2.Cycle], Sequence[float]]] = {
+        "contact_force": lambda c: (ends.start_force(c), ends.end_force(c), c.peak_force_n),
+        "deformation": lambda c: (c.delta_start_m, c.delta_end_m, c.delta_max_m)}
+    if quantity not in values:
+        return []
+    return ranges(run, law.name, colour,
+                  lambda cycle: (min(values[quantity](cycle)), max(values[quantity](cycle))))
 
 
 class _Ends:

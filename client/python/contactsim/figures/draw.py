@@ -15,6 +15,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from .axes import chosen_unit
+from .draw_coarse import draw_coarse, draw_stamp, keys, parted
 from .figure import Curve, Figure, Kind, Mark, Panel
 from .look import Look
 from .rows import draw_rows
@@ -50,11 +51,14 @@ def draw_panel(panel: Panel, ax: Axes, look: Look = Look(), key: Key | None = No
     """Draws a panel on axes, with its key above them."""
     if panel.kind is not Kind.LINES:
         draw_rows(panel, ax, look)
+        draw_stamp(panel, ax)
         return
     _draw_bands(panel, ax)
-    for curve in _merged(curve for curve in panel.curves if not _is_shaded(curve, look)):
+    for curve in _merged(part for curve in panel.curves if not _is_shaded(curve, look)
+                         for part in parted(curve)):
         ax.plot(curve.x, curve.y, scalex=True, scaley=True, **look.line(curve))
-    _draw_shaded([curve for curve in panel.curves if _is_shaded(curve, look)], ax, look)
+    _draw_shaded([parted(curve)[0] for curve in panel.curves if _is_shaded(curve, look)], ax, look)
+    draw_coarse(panel, ax, look)
     for y in panel.dotted:
         ax.axhline(y, color="0.4", linestyle=":", linewidth=1.0, zorder=1)
     _draw_labels(panel, ax)
@@ -105,6 +109,8 @@ class Key:
             self._entries.append((Line2D([], [], **look.line(black)), panel.dashed))
         if panel.bands and panel.band_label and not look.paper:
             self._entries.append((Patch(facecolor=WORDS["band"]), panel.band_label))
+        if panel.kind is Kind.LINES:
+            self._entries += keys(panel)
         points = look.rc["legend.fontsize"]
         longest = max((len(text) for _, text in self._entries), default=0)
         self.columns = max(1, int(0.88 * width * 72 / (points * (0.55 * longest + 4))))
@@ -189,7 +195,8 @@ def _scale(panel: Panel, ax: Axes, look: Look) -> None:
 
 def _limit_y(panel: Panel, ax: Axes) -> None:
     """Free space around the points, and above them for labels."""
-    values = np.concatenate([[y for y in panel.dotted], *(curve.y for curve in panel.curves)])
+    values = np.concatenate([[y for y in panel.dotted], *(curve.y for curve in panel.curves),
+                             *(y for each in panel.ranges for y in (each.low, each.high))])
     values = values[np.isfinite(values)]
     low, high = (values.min(), values.max()) if len(values) else (-1.0, 1.0)
     span = high - low or abs(low) or 2.0
@@ -212,6 +219,8 @@ def _limit_log(panel: Panel, ax: Axes) -> None:
 
 def _largest(panel: Panel, name: str, log: bool) -> float:
     """The largest absolute value on an axis; NaN without numbers."""
-    values = np.concatenate([getattr(curve, name) for curve in panel.curves] or [np.empty(0)])
+    ranges = [each.high for each in panel.ranges] if name == "y" else []
+    values = np.concatenate([getattr(curve, name) for curve in panel.curves] + ranges
+                            or [np.empty(0)])
     values = values[~np.isnan(values) & ((values > 0) | (not log))]
     return float(np.abs(values).max()) if len(values) else math.nan

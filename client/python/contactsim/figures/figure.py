@@ -35,6 +35,7 @@ class Mark(enum.Enum):
     END = enum.auto()  #: A cross at each point: where cycles end.
     LINE_POINTS = enum.auto()  #: A circle at each point, joined by lines.
     POINTS = enum.auto()  #: A small dot at each point.
+    RARE = enum.auto()  #: A tiny one: samples that are too rare to be joined.
     FAINT = enum.auto()  #: A thin grey line, for what is shown beside,
     FAINT_DOTS = enum.auto()  #: or a grey dot at each point.
 
@@ -58,6 +59,7 @@ class Curve:
     mark: Mark = Mark.LINE
     keyed: bool = True  #: False if it has no entry in the key, as without a label.
     shade: float | None = None  #: Of many rows its place among them, from 0 to 1: it is its colour.
+    loose: Sequence[tuple[float, float]] = ()  #: Spans of x whose points are too rare to be joined.
 
     @property
     def is_mark(self) -> bool:
@@ -68,6 +70,17 @@ class Curve:
     def is_faint(self) -> bool:
         """True for what is shown beside."""
         return self.mark in (Mark.FAINT, Mark.FAINT_DOTS)
+
+
+@dataclasses.dataclass
+class Range:
+    """Between which values something was, over spans of x."""
+
+    colour: int  #: As that of its curve.
+    start: Array
+    end: Array
+    low: Array
+    high: Array
 
 
 @dataclasses.dataclass(frozen=True)
@@ -97,6 +110,10 @@ class Panel:
     dashed: str = ""  #: What dashed curves are, where the key cannot list them all.
     bands: list[tuple[float, float]] = dataclasses.field(default_factory=list)  #: Shades over x.
     band_label: str = ""
+    cut: list[tuple[float, float]] = dataclasses.field(default_factory=list)  #: Hatched over x:
+    #: what the end of the run cuts.
+    ranges: list[Range] = dataclasses.field(default_factory=list)
+    stamp: str = ""  #: What the samples are too few for.
     labels: list[Label] = dataclasses.field(default_factory=list)
     dotted: list[float] = dataclasses.field(default_factory=list)  #: Values of y of dotted lines.
 
@@ -203,6 +220,9 @@ def _fade(panel: Panel, kept: Mapping[int, int]) -> None:
     panel.curves = [curve for curve in panel.curves
                     if curve.colour in kept
                     or not ((curve.is_mark and lines) or curve.mark is Mark.DASHED)]
+    panel.ranges = [each for each in panel.ranges if each.colour in kept]
+    for each in panel.ranges:
+        each.colour = kept[each.colour]
     for curve in panel.curves:
         if curve.colour in kept:
             curve.colour = kept[curve.colour]

@@ -63,6 +63,8 @@ class Look:
         shade = self.shade_of(curve)
         ink, dashes = (shade, []) if shade else self._pen(curve)
         style: dict[str, Any] = {"color": ink, "linewidth": 1.0 if self.paper else 1.3}
+        if curve.mark is Mark.RARE:
+            return style | {"linestyle": "", "marker": ".", "markersize": 2.0, "markeredgewidth": 0.0}
         if curve.mark in (Mark.START, Mark.END, Mark.POINTS):
             marker = {Mark.START: "o", Mark.END: "x", Mark.POINTS: "."}[curve.mark]
             return style | {"linestyle": "", "marker": marker, "fillstyle": "none"}

@@ -11,7 +11,8 @@ from contact.v1 import event_pb2, job_pb2
 
 from ..model import Array
 from ..spelling import expected, nearest
-from .contacts import deformation_velocity, force, hysteresis
+from .coarse import stamp
+from .contacts import contact_ranges, deformation_velocity, force, hysteresis
 from .figure import Curve, Figure, FigureError, Kind, Mark, Panel
 from .shown import OfCycle, Part, Shown
 from .sources import source_of
@@ -33,7 +34,8 @@ def _bodies(run: Shown, quantity: str, label: str, moved: bool = False) -> Panel
     for colour, body in run.bodies:
         column = f"{body}.{quantity}"
         offset = -origins[body] if moved else 0.0
-        panel.curves.append(run.curve(run.column(column) + offset, body, colour))
+        touching = [law.name for _, law in run.contacts if body in law.bodies]
+        panel.curves.append(run.curve(run.column(column) + offset, body, colour, contacts=touching))
         at_start, at_end = _ends(run, column, offset)
         for _, law in run.contacts:
             if body in law.bodies:
@@ -173,7 +175,7 @@ def _velocities(run: Shown, kind: Kind) -> list[Panel]:
 def _rows(run: Shown, kind: Kind, row: str, label: str,
           rows: list[tuple[int, str, str]]) -> list[Panel]:
     curves = [run.curve(run.column(column), name, place) for place, name, column in rows]
-    return [Panel("time [s]", label, curves, kind, row)]
+    return [Panel("time [s]", label, curves, kind, row, stamp=stamp(run))]
 
 
 #: By name: what makes the panels, and what their marks mean.
@@ -218,6 +220,10 @@ def channels_figure(channels: Sequence[str], result: Result, part: Part = Part()
         label = f"{quantity} [{result.units[channel]}]"
         panel = panels.setdefault(label, run.over_time(label))
         panel.curves.append(run.curve(result.arrays[channel], channel, colour))
+        of, _, name = channel.rpartition(".")
+        for _, law in run.contacts:
+            if law.name == of:
+                panel.ranges += contact_ranges(run, law, name, colour)
     return _of_run(result, list(panels.values()), "")
 
 

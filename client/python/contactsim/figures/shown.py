@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Callable, Iterator, Sequence
 
 import numpy as np
 from contact.v1 import job_pb2
 
 from ..model import Array, ContactLaw, contact_laws
 from ..spelling import nearest
+from .coarse import cut_spans, joined, loose, stamp
 from .figure import Curve, FigureError, Mark, Panel
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ OfCycle = Callable[[job_pb2.Cycle], float]
 
 # What the first servers did not record of bodies and supports, and all of the system.
 _LATER = (".acceleration", ".support_force", ".support_energy")
-
-FEW_SAMPLES = 10  #: A cycle with fewer samples than this has no visible shape.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -41,6 +40,7 @@ class Shown:
         self.result = result
         self.part = part
         self.laws = contact_laws(result.scenario)
+        self._loose: dict[str, list[tuple[float, float]]] = {}  # By contact.
         names = [law.name for law in self.laws]
         for name in part.contacts:
             if name not in names:
@@ -93,11 +93,20 @@ class Shown:
         spans = [(max(span.start_time_s, self.part.start), min(span.end_time_s, self.part.end))
                  for spans in (self.result.job.groups, self.result.job.cycles) for span in spans
                  if span.contact in names]
-        return Panel("time [s]", label, bands=_joined(span for span in spans if span[0] < span[1]),
-                     band_label="in contact")
+        return Panel("time [s]", label, bands=joined(span for span in spans if span[0] < span[1]),
+                     band_label="in contact", cut=cut_spans(self), stamp=stamp(self))
 
-    def curve(self, values: Array, label: str, colour: int, mark: Mark = Mark.LINE) -> Curve:
-        """The part of a curve over time that is in the window, which cuts it where it ends."""
+    def loose(self, contacts: Sequence[str]) -> list[tuple[float, float]]:
+        """Where samples are too rare to show what these contacts do."""
+        for contact in contacts:
+            if contact not in self._loose:
+                self._loose[contact] = loose(self, contact)
+        return joined(span for contact in contacts for span in self._loose[contact])
+
+    def curve(self, values: Array, label: str, colour: int, mark: Mark = Mark.LINE,
+              contacts: Sequence[str] | None = None) -> Curve:
+        """The part of a curve over time that is in the window, which cuts it where it ends.
+        `contacts`: those that it depends on; None: all that are shown."""
         time = self.column("time")
         begin = int(np.searchsorted(time, self.part.start, "left"))
         end = int(np.searchsorted(time, self.part.end, "right"))
@@ -108,7 +117,8 @@ class Shown:
         if 0 < end < len(time) and time[end - 1] < self.part.end:
             x = np.append(x, self.part.end)
             y = np.append(y, interpolate(time, values, self.part.end))
-        return Curve(label, colour, x, y, mark)
+        names = [law.name for _, law in self.contacts] if contacts is None else contacts
+        return Curve(label, colour, x, y, mark, loose=self.loose(names))
 
     def marks(self, contact: str, name: str, colour: int, at_start: OfCycle,
               at_end: OfCycle) -> list[Curve]:
@@ -121,7 +131,7 @@ class Shown:
                 if self.in_window(time):
                     points.append((time, value(cycle)))
         return [Curve(label, colour, np.array([x for x, _ in points]),
-                      np.array([y for _, y in points]), mark, False)
+                      np.array([y for _, y in points]), mark, False, loose=self.loose([contact]))
                 for label, mark, points in ends if points]
 
 
@@ -132,20 +142,3 @@ def interpolate(xs: Array, ys: Array, x: float) -> float:
         return float(ys[min(i, len(ys) - 1)])
     part = (x - xs[i - 1]) / (xs[i] - xs[i - 1])
     return float(ys[i - 1] + part * (ys[i] - ys[i - 1]))
-
-
-def samples_in(cycle: job_pb2.Cycle, time: Array) -> int:
-    """The number of samples within a cycle."""
-    return int(np.searchsorted(time, cycle.end_time_s, "right")
-               - np.searchsorted(time, cycle.start_time_s, "left"))
-
-
-def _joined(spans: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Those that touch or overlap as one, so that no shade lies over another."""
-    joined: list[tuple[float, float]] = []
-    for start, end in sorted(spans):
-        if joined and start <= joined[-1][1]:
-            joined[-1] = joined[-1][0], max(joined[-1][1], end)
-        else:
-            joined.append((start, end))
-    return joined
