@@ -279,6 +279,51 @@ test('any two axes of a sweep of three span its map', async () => {
   await axes('mass of a [kg]', 'velocity of a [m/s]');
 });
 
+test('ranges along parallel coordinates choose cells, by dragging, by keys and by the address', async () => {
+  const axis = (field) => ({field: `bodies[0].${field}`, linear: {low: 1, high: 6, count: 6}});
+  const {name} = await server.call('CreateJob', {job: {sweep: {base: BALL, metrics: ['final_bodies[a].position_m'], axes: [axis('velocity_m_per_s'), axis('position_m')]}}});
+  const id = name.replace('jobs/', '');
+  await server.ended(id);
+  await open(`/runs/${id}?view=parallel`);
+  const figure = page.locator('[data-plot="parallel"][data-lines="36"]');
+  const brushes = () => new URL(page.url()).searchParams.getAll('brush').join(' ');
+  const chosen = (n) => figure.getByRole('status').getByText(`${n} of 36 cells chosen`).waitFor();
+  const grey = () => figure.locator('path[stroke="var(--rule)"]').evaluateAll((all) => all.map((path) => path.getAttribute('d').split('M').length - 1).join());
+  await figure.waitFor();
+  const end = (which, axis) => figure.getByRole('slider', {name: `${which} end of ${axis}`});
+  const centre = async (of) => { const box = await of.boundingBox(); return [box.x + box.width / 2, box.y + box.height / 2]; };
+  const [x, top] = await centre(end('upper', 'velocity of a [m/s]'));
+  const [, bottom] = await centre(end('lower', 'velocity of a [m/s]'));
+  const at = (part) => bottom + part * (top - bottom);
+  await page.mouse.move(x, at(0.5));   // From the middle up: 4, 5, 6.
+  await page.mouse.down();
+  await page.mouse.move(x, at(0.8), {steps: 3});
+  await page.mouse.move(x, top - 20, {steps: 3});
+  await page.mouse.up();
+  await chosen(18);
+  assert.match(brushes(), /^0:3\.[45]\d*:6$/);
+  assert.equal(ofAddress('cell'), null, 'a drag chooses no line');
+  assert.equal(await grey(), '18');
+  const lower = end('lower', 'position of a [m]');
+  await lower.focus();
+  await page.keyboard.press('ArrowUp');   // From 1 to 2.
+  await page.keyboard.press('ArrowUp');
+  await chosen(12);
+  assert.equal(await lower.getAttribute('aria-valuenow'), '3');
+  await page.reload();
+  await chosen(12);
+  await figure.getByRole('application').press('ArrowRight');   // The first of those chosen.
+  await hold(() => ofAddress('cell') === '20');
+  assert.equal((await fileOf('parallel coordinates', 'CSV')).trim().split('\n').length, 13);
+  await page.keyboard.press('Escape');
+  await figure.getByRole('application').press('Escape');
+  await hold(() => brushes() === '');
+  assert.equal(await grey(), '');
+  await open(`/runs/${id}?view=parallel&brush=2:0:3`);
+  await figure.getByRole('button', {name: 'Choose all again'}).click();
+  await hold(() => brushes() === '');
+});
+
 test('a file that does not come says why, and can be asked for again', async () => {
   await open(`/runs/${chain}`);
   await page.route('**/ReadArtifact', (route) => route.abort());

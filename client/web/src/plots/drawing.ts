@@ -4,10 +4,10 @@ import type {Svg} from './svg';
 
 const TITLE_PX = 26;
 const FOOT_PX = 20;
-const INKS = ['text', 'soft', 'panel'];
+const INKS = ['text', 'soft', 'panel', 'rule', 'accent'];
 // The rules of style.css for drawings; a file has no other.
 const RULES = '.ink{fill:var(--text)}.name{font-weight:600}.halo{paint-order:stroke;stroke-width:5;stroke-linejoin:round;font-weight:700}'
-  + '.edge{paint-order:stroke;stroke:var(--panel);stroke-width:4;stroke-linejoin:round}.bright{stroke:#fff}.dark{stroke:#000}.cell{stroke:var(--panel)}.chosen{fill:none;stroke:#fff;stroke-width:2}.rim{stroke:#000;stroke-width:5}.rule{stroke:var(--soft)}';
+  + '.edge{paint-order:stroke;stroke:var(--panel);stroke-width:4;stroke-linejoin:round}.bright{stroke:#fff}.dark{stroke:#000}.cell{stroke:var(--panel)}.chosen{fill:none;stroke:#fff;stroke-width:2}.rim{stroke:#000;stroke-width:5}.rule{stroke:var(--soft)}.grip,.end{fill:none}.range{fill:var(--accent);fill-opacity:.2}';
 
 /** The point of an event in the units of the drawing. */
 export function pointIn(drawn: SVGSVGElement, {clientX, clientY}: MouseEvent): [number, number] {

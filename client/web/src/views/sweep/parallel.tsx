@@ -3,6 +3,7 @@
 import {useMemo, useRef} from 'preact/hooks';
 
 import type {SweepCell} from '../../api/generated/contact/v1/event_pb';
+import {entriesOf, isInside} from '../../model/brush';
 import {byColour, levelOf, nearestLine} from '../../model/cell_shapes';
 import {extent} from '../../model/panel';
 import {short} from '../../model/numbers';
@@ -11,11 +12,13 @@ import {drawingOf, pointIn} from '../../plots/drawing';
 import {ExportButtons} from '../../plots/exports';
 import {useTheme} from '../../ui/theme';
 import {useWidth} from '../../ui/use_width';
+import {BrushLayer, Chosen, useBrushes, type Frame} from './brushes';
 import {keysOver, type Choosing} from './choosing';
 
 const NARROW_PX = 560;
 const HEIGHT = 300;
 const LINE_PX = 14;   // Of the names above.
+const OUTSIDE = 'var(--rule)';   // The colour of cells that are not chosen.
 
 interface Props extends Choosing {
   names: string[];
@@ -23,7 +26,7 @@ interface Props extends Choosing {
   axes: number;
   cells: SweepCell[];
   metric: number;
-  csv: () => string;
+  csv: (cells: SweepCell[]) => string;
   source: string;
 }
 
@@ -36,6 +39,8 @@ interface Lines {
   rows: number;
   xs: number[];
   heights: number[][];
+  paths: string[];
+  values: number[][];
 }
 
 const anchor = (i: number, n: number) => (i === 0 ? 'start' : i === n - 1 ? 'end' : 'middle');
@@ -50,7 +55,8 @@ function linesOf(names: string[], cells: SweepCell[], width: number): Lines {
   const ranges = names.map((_, i): [number, number] => extent([rows.map((row) => row[i]!)]) ?? [0, 1]);
   const xs = names.map((_, i) => side + i * (width - 2 * side - 40) / Math.max(names.length - 1, 1));
   const height = (value: number, [low, high]: [number, number]) => top + HEIGHT * (low === high ? 0.5 : 1 - (value - low) / (high - low));
-  return {ranges, top, rows: staggered, xs, heights: rows.map((row) => names.map((_, i) => height(row[i]!, ranges[i]!)))};
+  const heights = rows.map((row) => names.map((_, i) => height(row[i]!, ranges[i]!)));
+  return {ranges, top, rows: staggered, xs, heights, values: rows, paths: heights.map((line) => pathOf(xs, line))};
 }
 
 function pathOf(xs: number[], heights: number[]): string {
@@ -58,9 +64,9 @@ function pathOf(xs: number[], heights: number[]): string {
 }
 
 /** A path for each colour, of the cells that converged or of the others. */
-function pathsOf({xs, heights}: Lines, cells: SweepCell[], colour: (cell: SweepCell) => string, converged: boolean): [string, string][] {
+function pathsOf({paths}: Lines, cells: SweepCell[], colour: (cell: SweepCell, i: number) => string, converged: boolean): [string, string][] {
   return byColour(cells.flatMap((cell, i): [string, string][] =>
-    ((outcomeOf(cell) === 'converged') === converged ? [[colour(cell), pathOf(xs, heights[i]!)]] : [])));
+    ((outcomeOf(cell) === 'converged') === converged ? [[colour(cell, i), paths[i]!]] : [])));
 }
 
 function Axes({names, ranges, xs, top, rows, width}: Lines & {names: string[]; width: number}) {
@@ -83,26 +89,39 @@ export function Parallel({names, axes, cells, metric, choose, open, chosen, csv,
   const [low, high] = lines.ranges[axes + metric] ?? [0, 1];
   const colour = (cell: SweepCell) =>
     levelOf((dark ? 0.35 : 0) + (dark ? 0.65 : 0.6) * (low === high ? 0.5 : (metricOf(cell, metric) - low) / (high - low) || 0));
-  const paths = useMemo(() => [true, false].map((converged) => pathsOf(lines, cells, colour, converged)), [lines, metric, dark]);
+  const {top, xs, ranges} = lines;
+  const frame: Frame = {names, xs, ranges, top, height: HEIGHT};
+  const {brushes, set, clear, pointer, taken} = useBrushes(frame);
+  const inside = useMemo(() => lines.values.map((row) => isInside(row, brushes)), [lines, entriesOf(brushes).join()]);
+  const ofChoice = <T,>(list: T[]) => (brushes.size > 0 ? list.filter((_, i) => inside[i]) : list);
+  const within = ofChoice(cells);
+  const paths = useMemo(() => [true, false].flatMap((converged) =>
+    pathsOf(lines, cells, (cell, i) => (inside[i] ? colour(cell) : OUTSIDE), converged).map(([ink, path]) => ({ink, path, converged})))
+    .sort((a, b) => Number(b.ink === OUTSIDE) - Number(a.ink === OUTSIDE)), [lines, metric, dark, inside]);   // Grey lies below.
   const unknown = useMemo(() => names.slice(axes).map((_, i) => Object.values(countUnknown(cells, i)).some(Boolean)), [cells, names.join()]);
   const place = cells.findIndex(({index}) => index === chosen);
   const click = (event: MouseEvent) => {
-    const near = cells[nearestLine(lines.xs, lines.heights, ...pointIn(drawn.current!, event))];
+    if (taken()) return;
+    const near = within[nearestLine(xs, ofChoice(lines.heights), ...pointIn(drawn.current!, event))];
     if (near) choose(near.index);
   };
+  const keys = keysOver(within, {chosen, choose, open});
+  const press = (event: KeyboardEvent) => (event.key === 'Escape' && brushes.size > 0 ? clear() : keys(event));
   return (
     <figure class="plot" data-plot="parallel" data-lines={cells.length}>
       <figcaption><h3>Parallel coordinates</h3>
-        <ExportButtons title="parallel coordinates" name={`${source}-parallel`} csv={csv} svg={() => drawingOf(drawn.current!, names.join(', '), source)} /></figcaption>
-      <div ref={box} class="keys" tabIndex={0} role="application" onKeyDown={keysOver(cells, {chosen, choose, open})}
+        <ExportButtons title="parallel coordinates" name={`${source}-parallel`} csv={() => csv(within)} svg={() => drawingOf(drawn.current!, names.join(', '), source)} /></figcaption>
+      <div ref={box} class="keys" tabIndex={0} role="application" onKeyDown={press}
         aria-label={`${cells.length} cells as lines over ${names.join(', ')}; arrow keys choose a cell, Enter runs it`}>
-        <svg ref={drawn} class="map parallel" viewBox={`0 0 ${width} ${HEIGHT + lines.top + 12}`} onClick={click}>
-          {paths.flatMap((list, i) => list.map(([ink, path]) => (
-            <path key={`${i}${ink}`} d={path} fill="none" stroke={ink} stroke-width="1.3" stroke-opacity={chosen === undefined ? 0.9 : 0.6} stroke-dasharray={i ? '4 3' : undefined} />)))}
-          {place >= 0 && <path d={pathOf(lines.xs, lines.heights[place]!)} fill="none" stroke={colour(cells[place]!)} stroke-width="4" />}
+        <svg ref={drawn} class="map parallel" viewBox={`0 0 ${width} ${HEIGHT + lines.top + 12}`} onClick={click} {...pointer}>
+          {paths.map(({ink, path, converged}) => (
+            <path key={`${converged}${ink}`} d={path} fill="none" stroke={ink} stroke-width="1.3" stroke-opacity={chosen === undefined ? 0.9 : 0.6} stroke-dasharray={converged ? undefined : '4 3'} />))}
+          {place >= 0 && <path d={lines.paths[place]} fill="none" stroke={colour(cells[place]!)} stroke-width="4" />}
           <Axes names={names} width={width} {...lines} />
+          <BrushLayer frame={frame} brushes={brushes} set={set} valuesOf={(place) => lines.values.map((row) => row[place]!)} />
         </svg>
       </div>
+      <Chosen brushes={brushes} inside={within.length} all={cells.length} clear={clear} />
       <p class="note">dashed: not converged or failed{unknown.some(Boolean) && '; broken: CUT by the end, or no contact'}</p>
     </figure>
   );

@@ -80,7 +80,7 @@ export function Sweep({id, run, query}: Props) {
       {kind === 'map' && grid && <HeatMap x={axes[across]!} y={axes[down]!} indexAt={sliceIndex(sizes, slice, across, down)}
         cells={run.cells} version={cells.length} metric={metric} metricName={metrics[metric] ?? 'convergence'} log={query.has('log')} contours={query.has('contours')} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
       {kind === 'line' && sweep.metrics.length > 0 && <Line sweep={sweep} cells={cells} metric={metric} chosen={chosen} choose={choose} open={open} source={`jobs/${id}`} />}
-      {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} open={open} chosen={chosen} csv={() => csvOf(sweep, cells)} source={`jobs/${id}`} />}
+      {kind === 'parallel' && <Parallel names={[...axes.map(({name}) => name), ...metrics]} axes={axes.length} cells={cells} metric={metric} choose={choose} open={open} chosen={chosen} csv={(some) => csvOf(sweep, some)} source={`jobs/${id}`} />}
       {chosen !== undefined && <CellDetails id={id} sweep={sweep} cell={run.cells.get(chosen)} index={chosen} />}
     </section>
   );
