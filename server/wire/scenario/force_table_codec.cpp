@@ -13,17 +13,17 @@ using Numbers = google::protobuf::RepeatedField<double>;
 
 // Whether each number is in its range and larger than the one before.
 bool CheckGrowth(const Numbers& numbers, int field, const Rules& rules) {
-  const auto& of = NumberOf<v1::ForceTable>(field);
-  const std::string name = of.descriptor->name();
+  const auto& of = *v1::ForceTable::descriptor()->FindFieldByNumber(field);
+  const Range range = RangeOf(of);
   double before = 0;
   for (int i = 0; i < numbers.size() && !rules.full(); ++i) {
     const double number = numbers[i];
-    if (!of.range.Contains(number)) {
-      rules.Require(fmt::format("{}[{}]", name, i), number, of.range);
+    if (!range.Contains(number)) {
+      rules.Require(fmt::format("{}[{}]", of.name(), i), number, range);
       return false;
     }
     if (!(number > before)) {
-      rules.Break(fmt::format("{}[{}]", name, i),
+      rules.Break(fmt::format("{}[{}]", of.name(), i),
                   fmt::format("is {}; must be above {}, the one before", number, before),
                   "a plateau is a slight slope");
       return false;
