@@ -282,7 +282,7 @@ test('any two axes of a sweep of three span its map', async () => {
 test('a link that is copied brings the view back to another reader', async () => {
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   const copy = async () => {
-    await page.getByRole('button', {name: 'Copy a link to this view'}).press('Enter');
+    await page.getByRole('button', {name: 'Copy link to this view'}).press('Enter');
     await page.getByText('Copied', {exact: true}).waitFor();
   };
   for (const path of [`/runs/${chain}?contact=B2-B3&from=0.001&to=0.002`, `/compare?jobs=${chain}&channels=B1.velocity`]) {

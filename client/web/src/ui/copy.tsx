@@ -27,5 +27,5 @@ export function Copy({text, what, children = 'Copy'}: {text: string | (() => str
 
 /** Copies the address of the page, which holds all that is chosen on it. */
 export function CopyLink() {
-  return <Copy text={() => location.href} what="a link to this view">Copy link</Copy>;
+  return <Copy text={() => location.href} what="link to this view">Copy link</Copy>;
 }
