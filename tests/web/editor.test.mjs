@@ -38,6 +38,26 @@ test('a word that is unknown hides no other mistake', async () => {
   assert.ok(await page.getByRole('button', {name: 'Start the run'}).isDisabled());
 });
 
+test('the scenario is drawn as it is written, and the last right one stays, greyed, while the text is wrong', async () => {
+  const picture = page.getByLabel('The scenario as it begins');
+  const canvas = picture.locator('canvas');
+  const drawing = () => canvas.evaluate((drawn) => drawn.toDataURL());
+  const told = (words) => hold(async () => await canvas.getAttribute('aria-label') === words && await picture.getAttribute('data-stale') === null);
+  await told('B1 at 0 m, 0.2 m/s; B2 at 0.1 m; B3 at 0.2 m');
+  const first = await drawing();
+  const faster = chain.replace('velocity_m_per_s: 0.2', 'velocity_m_per_s: -0.3');
+  await editor.fill(faster);
+  await told('B1 at 0 m, -0.3 m/s; B2 at 0.1 m; B3 at 0.2 m');
+  const second = await drawing();
+  assert.notEqual(second, first);
+  await editor.fill(faster.replace('restitution: 0.7', 'restitution: 1.7'));
+  await picture.getByText('the last text that was right').waitFor();
+  assert.deepEqual([await drawing(), await canvas.evaluate((drawn) => getComputedStyle(drawn).filter)], [second, 'grayscale(1)']);
+  await editor.fill(chain);
+  await told('B1 at 0 m, 0.2 m/s; B2 at 0.1 m; B3 at 0.2 m');
+  assert.equal(await drawing(), first);
+});
+
 test('completion opens below the word that is written', async () => {
   const lines = chain.split('\n');
   await editor.fill(`${chain}solv`);

@@ -279,6 +279,22 @@ test('any two axes of a sweep of three span its map', async () => {
   await axes('mass of a [kg]', 'velocity of a [m/s]');
 });
 
+test('a link that is copied brings the view back to another reader', async () => {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  const copy = async () => {
+    await page.getByRole('button', {name: 'Copy link to this view'}).press('Enter');
+    await page.getByText('Copied', {exact: true}).waitFor();
+  };
+  for (const path of [`/runs/${chain}?contact=B2-B3&from=0.001&to=0.002`, `/compare?jobs=${chain}&channels=B1.velocity`]) {
+    await open(path);
+    await copy();
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), server.origin + path);
+  }
+  await page.evaluate(() => { Object.defineProperty(navigator, 'clipboard', {value: undefined}); });   // As without TLS.
+  await page.mouse.click(2, 400);
+  await copy();
+});
+
 test('ranges along parallel coordinates choose cells, by dragging, by keys and by the address', async () => {
   const axis = (field) => ({field: `bodies[0].${field}`, linear: {low: 1, high: 6, count: 6}});
   const {name} = await server.call('CreateJob', {job: {sweep: {base: BALL, metrics: ['final_bodies[a].position_m'], axes: [axis('velocity_m_per_s'), axis('position_m')]}}});

@@ -14,6 +14,25 @@ export interface Stage {
   /** Displacements are drawn so many times as large. */
   magnification: number;
   largestForce: number;
+  /** Of each body [m/s]; drawn as arrows. */
+  velocities?: number[];
+}
+
+export const MOST_BODIES = 60;   // Of a strip.
+
+/** The bodies and contacts that a strip shows. */
+export function firstBodies(mechanics: Mechanics): Mechanics {
+  return {...mechanics, bodies: mechanics.bodies.slice(0, MOST_BODIES),
+    contacts: mechanics.contacts.slice(0, MOST_BODIES).filter(({left, right}) => left < MOST_BODIES && right < MOST_BODIES)};
+}
+
+/** The strip of a scenario before its run. */
+export function atStart(mechanics: Mechanics): Stage {
+  const velocities = mechanics.bodies.map((_, i) => {
+    const {velocityMPerS, motion} = mechanics.scenario.bodies[i]!;
+    return motion?.kind.case === 'uniform' ? motion.kind.value.velocityMPerS : velocityMPerS;
+  });
+  return {...stageOf(mechanics, new Map(), false), velocities};
 }
 
 /** A round factor that makes small displacements visible: 1, 2, 5, 10, 20 … */

@@ -18,6 +18,20 @@ export interface Sheet {
   theme: Theme;
 }
 
+export const STRIP_PX = 132;   // In height.
+const SPRING_PX = 50;          // Of a spring to the ground at least, where there is room.
+
+/** A canvas made ready to be drawn on, in the colours of the page. */
+export function sheetOf(canvas: HTMLCanvasElement, width: number, theme: Theme): Sheet {
+  const ratio = devicePixelRatio;
+  Object.assign(canvas, {width: width * ratio, height: STRIP_PX * ratio});
+  const ctx = canvas.getContext('2d')!;
+  ctx.scale(ratio, ratio);
+  const style = getComputedStyle(canvas);
+  const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
+  return {ctx, width, height: STRIP_PX, theme, ink: {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper')}};
+}
+
 /** Where the bodies are at a moment; where they begin if nothing is recorded yet. */
 function placesAt({mechanics, series, magnification}: Stage, time: number): number[] {
   const times = values(series, 'time');
@@ -65,8 +79,8 @@ function drawSupports(stage: Stage, {ctx, ink}: Sheet, toX: (x: number) => numbe
   ctx.strokeStyle = ink.soft;
   for (const {body, other} of stage.mechanics.scenario.supports) {
     const i = index.get(body)!;
-    const from = other ? toX(places[index.get(other)!]!) : toX(stage.low);
-    spring(ctx, from, toX(places[i]! - stage.mechanics.bodies[i]!.radius), middle);
+    const end = toX(places[i]! - stage.mechanics.bodies[i]!.radius);
+    spring(ctx, other ? toX(places[index.get(other)!]!) : Math.max(Math.min(toX(stage.low), end - SPRING_PX), 0), end, middle);
   }
 }
 
@@ -94,6 +108,20 @@ function drawForces(stage: Stage, sheet: Sheet, toX: (x: number) => number, plac
     const {factor, label} = readableUnit('[N]', Math.abs(force));
     ctx.textAlign = x > sheet.width - 40 ? 'right' : x < 40 ? 'left' : 'center';
     ctx.fillText(`${short(force / factor, 3)} ${label.replace(/[[\]]/g, '')}`, x, middle - Math.min(largestRadius(stage) * scale, 40) - 6 - (colour % 2) * 12);
+  });
+}
+
+/** An arrow above each body that moves, with its speed. */
+function drawVelocities({mechanics: {bodies}, velocities = []}: Stage, {ctx, ink, width}: Sheet, toX: (x: number) => number, places: number[], middle: number): void {
+  const scale = toX(1) - toX(0);
+  const largest = Math.max(...velocities.map(Math.abs), 0);
+  ctx.strokeStyle = ctx.fillStyle = ink.text;
+  velocities.forEach((velocity, i) => {
+    if (!(Math.abs(velocity) > 0)) return;
+    const [x, y] = [toX(places[i]!), middle - Math.max(bodies[i]!.radius * scale, 4) - 7];
+    arrow(ctx, x, x + Math.sign(velocity) * (12 + 28 * Math.abs(velocity) / largest), y);
+    ctx.textAlign = x > width - 60 ? 'right' : x < 60 ? 'left' : 'center';
+    ctx.fillText(`${short(Math.abs(velocity), 3)} m/s`, x, y - 5);
   });
 }
 
@@ -131,4 +159,5 @@ export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
     if (bodies.length <= 24) ctx.fillText(name, toX(places[i]!), r > 30 ? middle + r / 2 + 4 : middle + r + 13);
   });
   drawForces(stage, sheet, toX, places, time, middle);
+  drawVelocities(stage, sheet, toX, places, middle);
 }

@@ -11,6 +11,7 @@ import {mechanicsOf} from '../model/mechanics';
 import {compact, exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {Plot} from '../plots/plot';
+import {CopyLink} from '../ui/copy';
 import {LeftOut} from '../ui/left_out';
 import {setPlayhead} from '../ui/playhead';
 import {setQuery, type Route} from '../ui/route';
@@ -145,7 +146,7 @@ export function Compare({route: {query}}: {route: Route}) {
   useEffect(() => { if (value) setJobs(value); }, [value]);
   return (
     <>
-      <div class="head"><h1>Compare</h1><Picker jobs={ids} /></div>
+      <div class="head"><h1>Compare</h1><Picker jobs={ids} />{ids.length > 0 && <span class="actions"><CopyLink /></span>}</div>
       {error !== undefined && <p class="notice" role="alert">{explain(error)}</p>}
       {ids.length === 0 && <p class="nothing">Choose runs here, or mark them in the <a href="/runs">list</a>. The first one is the baseline.</p>}
       <ul class="chips">{jobs.map((job) => (

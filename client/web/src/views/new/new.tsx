@@ -10,6 +10,7 @@ import {labelsOf} from '../../model/job_list';
 import {bytes, count, seconds} from '../../model/numbers';
 import {requestId} from '../../ui/request_id';
 import {go, setQuery, type Route} from '../../ui/route';
+import {useAsync} from '../../ui/use_async';
 import {Editor} from './editor';
 import {useText} from './use_text';
 import {jobOf, useValidation, type Verdict} from './use_validation';
@@ -68,6 +69,7 @@ export function New({route}: {route: Route}) {
       (e: unknown) => { setBusy(false); setError(explain(e)); });
   };
   const from = route.query.get('from');
+  const Picture = useAsync(async () => (await import('./picture')).Picture, []).value;
   return (
     <>
       <div class="head"><h1>{from ? `Run ${from} again with changes` : 'New run'}</h1></div>
@@ -78,6 +80,7 @@ export function New({route}: {route: Route}) {
         <div>
           {replaced && <p class="notice" role="status">The template stands in place of what you wrote. <button type="button" onClick={() => history.back()}>Back to my text</button></p>}
           <Editor text={text} setText={setText} problems={verdict.problems} />
+          {Picture && <Picture verdict={verdict} />}
           <Verdicts {...verdict} />
           {error && <p class="notice" role="alert">{error}</p>}
           <div class="tools">

@@ -8,6 +8,7 @@ import {isFinal} from '../../api/watch';
 import type {RunSummary} from '../../api/generated/contact/v1/job_pb';
 import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
+import {CopyLink} from '../../ui/copy';
 import {go} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
 import {Twice} from '../../ui/twice';
@@ -21,6 +22,7 @@ function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (wh
     <span class="actions">
       <a class="button" href={`/new?from=${id}`}>Run again with changes</a>
       <a class="button" href={`/compare?jobs=${id}`}>Compare</a>
+      <CopyLink />
       {!ended && <Twice key="cancel" first="Cancel run …" then="Cancel for good" stay="Go on" act={() => void attempt(server.cancelJob({name}))} />}
       {ended && <Twice key="delete" first="Delete …" then="Delete for good" stay="Keep" act={() => void attempt(server.deleteJob({name}), () => go('/runs'))} />}
     </span>

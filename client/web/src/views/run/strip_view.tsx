@@ -6,16 +6,14 @@ import type {Series} from '../../api/series';
 import type {Mechanics} from '../../model/mechanics';
 import {short} from '../../model/numbers';
 import type {Window} from '../../plots/range';
-import {stageOf} from '../../model/stage';
-import {drawStrip} from '../../plots/strip';
+import {firstBodies, MOST_BODIES, stageOf} from '../../model/stage';
+import {drawStrip, sheetOf} from '../../plots/strip';
 import {onPlayhead, playhead, setPlayhead} from '../../ui/playhead';
 import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
 import {useTheme} from '../../ui/theme';
 
 const SECONDS = [2, 5, 10, 30, 60];   // In which the whole stretch is played.
-const HEIGHT = 132;
-const MOST_BODIES = 60;
 
 interface Props {
   mechanics: Mechanics;
@@ -56,8 +54,7 @@ export function StripView({mechanics, series, query}: Props) {
   const [width, setWidth] = useState(0);
   const seconds = Number(query.get('play') ?? 5) || 5;
   const magnified = query.get('scale') !== 'true';
-  const part = useMemo(() => ({...mechanics, bodies: mechanics.bodies.slice(0, MOST_BODIES), contacts: mechanics.contacts.slice(0, MOST_BODIES)
-    .filter(({left, right}) => left < MOST_BODIES && right < MOST_BODIES)}), [mechanics]);
+  const part = useMemo(() => firstBodies(mechanics), [mechanics]);
   const times = series?.get('time')?.values;
   const range: Window = useMemo(() => [times?.[0] ?? 0, times?.at(-1) ?? 1], [times]);
   const stage = useMemo(() => (series ? stageOf(part, series, magnified) : undefined), [series, part, magnified]);
@@ -73,13 +70,7 @@ export function StripView({mechanics, series, query}: Props) {
     const given = query.get('t');
     if (given && playhead() === undefined) setPlayhead(Number(given));
     if (!stage || width === 0) return undefined;
-    const ratio = devicePixelRatio;
-    Object.assign(canvas.current!, {width: width * ratio, height: HEIGHT * ratio});
-    const ctx = canvas.current!.getContext('2d')!;
-    ctx.scale(ratio, ratio);
-    const style = getComputedStyle(canvas.current!);
-    const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
-    const sheet = {ctx, width, height: HEIGHT, theme, ink: {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper')}};
+    const sheet = sheetOf(canvas.current!, width, theme);
     const show = (time = range[0]) => {
       const shown = Math.min(Math.max(time, range[0]), range[1]);
       drawStrip(stage, sheet, shown);
