@@ -5,22 +5,12 @@ import unittest
 
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
-from contactd import (ENDED, PATIENCE_S, Job, ServerTest, endless, seconds, stored, to_bytes,
+from contactd import (ENDED, PATIENCE_S, Job, ServerTest, seconds, slowly_sampled, stored, to_bytes,
                       wait_for)
 
 SHOW_S = 0.2    #: Rows are at most so old when they are sent.
 SLACK_S = 0.4   #: Threads that wait for a core, a commit, the link: more than any seen beside a build.
 FIRST_S = 1.0   #: The first row comes within.
-
-
-def slow_ball():
-    """Some twenty samples a second: a chunk takes more than ten seconds to fill."""
-    scenario = endless()
-    scenario.end_time_s = 1e4
-    scenario.output.sample_interval_s = 0.01
-    scenario.solver.method = scenario_pb2.Solver.RK4
-    scenario.solver.step_s = 4e-7
-    return scenario
 
 
 def row_on_a_spring():
@@ -79,13 +69,13 @@ class LiveTest(ServerTest):
             following += chunk.samples
 
     def test_samples_that_come_slowly_are_shown_five_times_a_second(self):
-        self.assertMoves(*self.frames(slow_ball(), 4))
+        self.assertMoves(*self.frames(slowly_sampled(), 4))
 
     def test_a_row_of_balls_is_shown_five_times_a_second(self):
         self.assertMoves(*self.frames(row_on_a_spring(), 4))
 
     def test_a_run_that_is_watched_has_the_same_ledger_series_and_files(self):
-        scenario = slow_ball()
+        scenario = slowly_sampled()
         scenario.end_time_s = 1
         scenario.output.sample_interval_s = 1e-3
         watched = self.server.create(scenario).name
@@ -111,7 +101,7 @@ class LiveTest(ServerTest):
         self.assertEqual(*seen)
 
     def test_a_stream_that_is_resumed_has_what_the_first_one_had(self):
-        name = self.server.create(slow_ball()).name
+        name = self.server.create(slowly_sampled()).name
         first = self.server.wait_until(name, lambda event: event.HasField("frame_chunk")
                                        and event.frame_chunk.first_sample > 0)
         first = [to_bytes(event) for event in first if stored(event)]

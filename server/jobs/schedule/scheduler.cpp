@@ -442,7 +442,8 @@ std::vector<Scheduler::Here> Scheduler::jobs() const {
                     .whose = {OwnerOf(active.job), TenantOf(active.job)},
                     .running = running_.contains(name) && !active.ending,
                     .ending = active.ending,
-                    .progress = active.record->Get(false).progress()});
+                    .progress = active.record->Get(false).progress(),
+                    .log = active.log});
   }
   return jobs;
 }
