@@ -15,8 +15,8 @@ TEST(LawCatalogue, NamesLawsAsTheContractDoes) {
   }
 }
 
-TEST(LawCatalogue, HasEveryLawOfTheContractButTheGivenFactor) {
-  EXPECT_EQ(LawCatalogue().size(), DampingLaws().size() - 2);
+TEST(LawCatalogue, HasEveryLawOfTheContractButWhatIsGiven) {
+  EXPECT_EQ(LawCatalogue().size(), DampingLaws().size() - 3);
   for (const LawEntry& law : LawCatalogue()) {
     EXPECT_NE(DampingOf(law.law), v1::Contact::MU);
     EXPECT_NE(law.alpha, nullptr) << law.name;

@@ -317,7 +317,7 @@ std::vector<Case> Cases() {
         "a slight slope"}},
       {"TableFromBelowZero",
        [&](S& s) { table(s).set_forces_n(0, -5); },
-       {"contacts[0].force_table.forces_n[0]: is -5; must be in (0, 1e+15]"}},
+       {"contacts[0].force_table.forces_n[0]: is -5; must be in (0, 1e15]"}},
       {"TableThatMakesEnergy",
        [&](S& s) { table(s).set_unloading_stiffness_n_per_m(4e4); },
        {"contacts[0].force_table.unloading_stiffness_n_per_m: is 40000; must be at least 50000, "
