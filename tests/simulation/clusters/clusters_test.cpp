@@ -165,7 +165,8 @@ TEST(Clusters, SamplesAreThoseOfAllTogether) {
   }
 }
 
-// Every second contact goes back on another way, a part of them more steeply after hard blows.
+// Every second contact goes back on another way, a part of them more steeply after hard blows. A
+// sample in a step with a corner of a table is as exact as the dense output there.
 TEST(Clusters, TablesThatYieldAreThoseOfAllTogether) {
   Scenario s = Gas(20, 1e6, 2);
   for (std::size_t c = 0; c < s.contacts.size(); c += 2) {
@@ -183,7 +184,7 @@ TEST(Clusters, TablesThatYieldAreThoseOfAllTogether) {
   const int energies = parts.columns - 5;
   for (int row = 0; row < parts.rows(); ++row) {
     for (int column = energies; column < parts.columns; ++column) {
-      ASSERT_NEAR(parts.Sample(row, column), whole.Sample(row, column), 1e-8)
+      ASSERT_NEAR(parts.Sample(row, column), whole.Sample(row, column), 1e-7)
           << row << " " << column;
     }
   }
