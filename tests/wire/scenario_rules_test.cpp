@@ -298,9 +298,11 @@ std::vector<Case> Cases() {
        [&](S& s) { table(s).Clear(); },
        {"contacts[0].force_table.deformations_m: is missing — one point is a straight line"}},
       {"TableWithTooFewForces",
-       [&](S& s) { table(s).add_deformations_m(2e-4); },
+       [&](S& s) { table(s).add_deformations_m(1e-5); },
        {"contacts[0].force_table.forces_n: has 1 entries; deformations_m has 2 — give a force for "
-        "each deformation"}},
+        "each deformation",
+        "contacts[0].force_table.deformations_m[1]: is 1e-05; must be above 0.0001, the one "
+        "before — a plateau is a slight slope"}},
       {"TableThatGoesBack",
        [&](S& s) {
          v1::ForceTable& t = table(s);

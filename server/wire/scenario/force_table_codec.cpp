@@ -77,9 +77,10 @@ ForceTable::Unloading DecodeUnloading(const v1::ForceTable& message, double stee
 
 ForceTable DecodeForceTable(const v1::ForceTable& message, const Rules& rules) {
   const auto &deformations = message.deformations_m(), &forces = message.forces_n();
-  const bool right = CheckCount(message, rules) &&
-                     CheckGrowth(deformations, v1::ForceTable::kDeformationsMFieldNumber, rules) &&
-                     CheckGrowth(forces, v1::ForceTable::kForcesNFieldNumber, rules);
+  const bool pairs = CheckCount(message, rules);
+  const bool deepens = CheckGrowth(deformations, v1::ForceTable::kDeformationsMFieldNumber, rules);
+  const bool rises = CheckGrowth(forces, v1::ForceTable::kForcesNFieldNumber, rules);
+  const bool right = pairs && deepens && rises;
   std::vector<ForceTable::Point> points;
   double steepest = 0;
   ForceTable::Point before{0, 0};
