@@ -15,7 +15,8 @@ constexpr double kFast = 100;
 // Part of a step in which bodies that separate are apart at last.
 constexpr double kSoonest = 1e-9;
 // Part of the largest stretch by which a peak that passes it is round-off, as where a spring has
-// just stuck.
+// just stuck: with 0 it slips there without end (SlippingSpring.DissipatesWhatALoadDoes); with more
+// a slip is missed that is longer (FirstSlip.IsFoundWhere…).
 constexpr double kGraze = 1e-12;
 
 // Root of f between a and b, where it changes sign; a when it already has b's sign there.
