@@ -105,6 +105,26 @@ TEST(Driven, AShakingTableIsALoadInItsFrame) {
   }
 }
 
+// What creeps on a table that does not throw it costs 3.4 times the steps of the same load, and 34
+// times if Euler's method takes the table for a motion of its own.
+TEST(Driven, ADampedContactFollowsItsTableInStepsLikeThoseOfALoad) {
+  const double amplitude = 9e-4, omega = 69;
+  Scenario s = BallOnFloor(0, 0, 1.8e7, 1.5, 1);
+  s.contacts[0].damping = DampingLaw::kGiven, s.contacts[0].mu = 1e12;
+  Scenario shaken = s;
+  shaken.bodies[0].velocity = amplitude * omega;
+  Drive1(&shaken, {.amplitude = amplitude, .angular_frequency = omega});
+  s.loads.push_back(
+      {.body = 0, .amplitude = 0.1 * amplitude * omega * omega, .angular_frequency = omega});
+  const Record table = RunAndRecord(shaken), load = RunAndRecord(s);
+  EXPECT_LT(table.outcome.steps, 6 * load.outcome.steps);
+  ASSERT_EQ(table.cycles.size(), load.cycles.size());
+  for (std::size_t i = 0; i + 1 < table.cycles.size(); ++i) {  // The end cuts the last.
+    EXPECT_NEAR(table.cycles[i].max_deformation / load.cycles[i].max_deformation, 1, 1e-9) << i;
+  }
+  EXPECT_LT(table.outcome.energy_residual, 1e-9);
+}
+
 // A table that rises to just above, or just below, what hangs there.
 TEST(Driven, AGrazingTouchIsFound) {
   for (const double beyond : {1e-3, 1e-4, 1e-5}) {

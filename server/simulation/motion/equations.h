@@ -192,8 +192,9 @@ class Equations : public StateLayout {
   /// All loads, and all drives, by their times.
   const PieceRows<Load>& loads() const { return loads_; }
   const PieceRows<Drive>& drives() const { return drives_; }
-  /// The loads that act.
+  /// The loads that act, and the drives.
   const std::vector<Load>& acting() const { return acting_; }
+  const std::vector<Drive>& driving() const { return driving_; }
   /// Adds to accelerations by how much those of the selected loads and drives differ between two
   /// instants.
   void AddLoadChange(double from, double to, double* accelerations) const;

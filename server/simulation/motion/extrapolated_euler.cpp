@@ -5,6 +5,9 @@
 #include <numbers>
 #include <type_traits>
 
+#include "simulation/model/derived.h"
+#include "simulation/model/index.h"
+
 namespace contact {
 namespace {
 
@@ -19,6 +22,27 @@ const std::array<double, ExtrapolatedEuler::kNodes + 2> kTheta = [] {
 }();
 
 }  // namespace
+
+void ExtrapolatedEuler::Prepare() {
+  linked_.Count();
+  const std::vector<Drive>& driving = equations_.driving();
+  carriers_.assign(scenario_.bodies.size(), kNone);
+  for (std::size_t i = 0; i < driving.size(); ++i) {
+    carriers_[At(driving[i].body)] = static_cast<int>(i);
+  }
+  const auto join = [&](std::ptrdiff_t from, std::ptrdiff_t to, double inverse) {
+    if (inverse == 0 || carriers_[At(from)] == kNone || carriers_[At(to)] != kNone) return false;
+    carriers_[At(to)] = carriers_[At(from)];
+    return true;
+  };
+  for (bool more = !driving.empty(); more;) {
+    more = false;
+    for (const LinkedBodies::Link& link : linked_.links()) {
+      const std::ptrdiff_t left = linked_.body(link.left), right = linked_.body(link.right);
+      more |= join(left, right, link.right_inverse) || join(right, left, link.left_inverse);
+    }
+  }
+}
 
 void ExtrapolatedEuler::Step(const Vector& y0, const Vector& slope0, double time, double h, int k,
                              Vector* y1) {
@@ -87,9 +111,28 @@ void ExtrapolatedEuler::Integrate(const Vector& y0, const Vector& slope0, double
     Accelerate(part);
     moved.head(2 * n) += part * slope_.head(2 * n);
     moved.head(n) += part * part * slope_.segment(n, n);  // u by v at the end of the part.
+    Carry(time + (i - 1) * part, time + i * part, moved);
     y_ = y0 + moved;
     equations_(time + i * part, y_.data(), slope_.data());
     moved.tail(quadratures) += part * slope_.tail(quadratures);
+  }
+}
+
+// With s of the drive u − s and v − ṡ obey the same equations, but for the acceleration s̈ that
+// Accelerate has of the driven body: v' = v + p a' + (Δṡ − p s̈), u' = u + p v' + (Δs − p ṡ), with s̈
+// and ṡ at the end of the part.
+void ExtrapolatedEuler::Carry(double from, double to, Eigen::Ref<Vector> moved) const {
+  const std::vector<Drive>& driving = equations_.driving();
+  const double part = to - from;
+  for (std::size_t i = 0; i < driving.size(); ++i) {
+    const DrivenMotion start = MotionAt(driving[i], from), end = MotionAt(driving[i], to);
+    const double speed = end.velocity - start.velocity - part * end.acceleration;
+    const double place = Displacement(driving[i], from, to) - part * end.velocity;
+    for (std::ptrdiff_t body = 0; body < std::ssize(carriers_); ++body) {
+      if (carriers_[At(body)] != static_cast<int>(i)) continue;
+      moved[equations_.bodies() + body] += speed;
+      moved[body] += part * speed + place;
+    }
   }
 }
 

@@ -17,7 +17,9 @@ namespace contact {
 /// A step of h is taken in 1, 2, 3, … parts of Euler's method, each a linear system with the
 /// derivatives of the forces at the start of the step; what these approximations T₁, T₂, … tend to
 /// is of order k after k of them. Source: Hairer, Wanner, Solving Ordinary Differential Equations
-/// II, 2nd ed., Springer 1996, IV.9 (SEULEX). Does not allocate once it has taken a step.
+/// II, 2nd ed., Springer 1996, IV.9 (SEULEX). Bodies that links join to a driven one are integrated
+/// in its frame, in which it stands still: what is damped follows it, and Euler's method would be
+/// late by what no extrapolation takes back. Does not allocate once it has taken a step.
 class ExtrapolatedEuler {
  public:
   using Vector = Eigen::ArrayXd;
@@ -26,8 +28,8 @@ class ExtrapolatedEuler {
   ExtrapolatedEuler(const Scenario& scenario, const Equations& equations)
       : scenario_(scenario), equations_(equations), linked_(scenario, equations) {}
 
-  /// Call before the first step, and when the active contacts have changed.
-  void Prepare() { linked_.Count(); }
+  /// Call before the first step, and when the active contacts or drives have changed.
+  void Prepare();
 
   /// Computes y1, `h` [s] after y0, to order k ≥ 2. `slope0` are the slopes at y0, at `time` [s].
   void Step(const Vector& y0, const Vector& slope0, double time, double h, int k, Vector* y1);
@@ -53,6 +55,8 @@ class ExtrapolatedEuler {
   void Linearize(const Vector& y0);
   /// T of so many parts, as the motion from y0, into its column of the table.
   void Integrate(const Vector& y0, const Vector& slope0, double time, double h, int parts);
+  /// Adds to the motion of carried bodies by how much Euler's method misses that of their drive.
+  void Carry(double from, double to, Eigen::Ref<Vector> moved) const;
   /// The linear system of a part of so many seconds.
   void Assemble(double part);
   /// Puts the accelerations of the implicit method into slope_, in place of those at its start.
@@ -63,6 +67,8 @@ class ExtrapolatedEuler {
   const Scenario& scenario_;
   const Equations& equations_;
   LinkedBodies linked_;
+  // Which of Equations::driving carries each body, or kNone.
+  std::vector<int> carriers_;
   // In the order of links.
   std::vector<Law> laws_;
   BandedSystem system_;
