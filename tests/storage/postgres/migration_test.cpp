@@ -188,7 +188,11 @@ TEST_P(PostgresMigrationTest, ProgramsThatBeginAtOnceMigrateOnce) {
   MakeOldVersion();
   AllowCommands(1'000'000);
   std::vector<std::thread> programs;
-  for (int i = 0; i < 8; ++i) programs.emplace_back([this] { EXPECT_TRUE(Migrate().ok()); });
+  const auto migrate = [this] {
+    const absl::Status migrated = Migrate();
+    EXPECT_TRUE(migrated.ok()) << migrated;
+  };
+  for (int i = 0; i < 8; ++i) programs.emplace_back(migrate);
   for (std::thread& program : programs) program.join();
   EXPECT_EQ(Commands(), once);
   EXPECT_EQ(Ask("SELECT count(*) FROM contactd.version"), 1);
