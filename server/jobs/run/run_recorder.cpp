@@ -116,7 +116,6 @@ void RunRecorder::OnStep() {
   assignment_.control->CountStep();
   if (++steps_ % kStepsPerLook == 0 && assignment_.log->watched()) Show();
   if (!assignment_.control->yielding()) return;
-  if (assignment_.log->watched() && hand_out_) hand_out_();
   writer_.WriteIfDue();
   assignment_.yield();
 }
@@ -125,7 +124,6 @@ void RunRecorder::Show() {
   const auto now = clock_.Elapsed();
   if (now - last_shown_ >= kShowTime) {
     last_shown_ = now;
-    if (hand_out_) hand_out_();
   }
   if (writer_.pending_bytes() > 0) writer_.WriteIfDue();
 }
