@@ -69,7 +69,7 @@ class LargeScenarioTest(MemoryTest):
             self.assertEqual([part.columns_follow for part in parts],
                              [True] * (len(parts) - 1) + [False])
             columns = parts[0].columns[:1] + [c for part in parts for c in part.columns[1:]]
-            self.assertEqual(len({column.name for column in columns}), 1 + 2 * 19_999 + 4 * 19_998)
+            self.assertEqual(len({column.name for column in columns}), 1 + 3 * 19_999 + 4 * 19_998 + 5)
             self.assertEqual({len(column.values) for column in columns}, {8})
         series = self.server.stub.GetSeries(job_service_pb2.GetSeriesRequest(
             name=name, channels=["B0.position", "B19998.velocity"]), timeout=PATIENCE_S)

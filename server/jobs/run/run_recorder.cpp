@@ -14,11 +14,7 @@ namespace contact {
 namespace {
 
 constexpr std::chrono::milliseconds kProgressTime{100};
-// A watcher sees motion that is this old, and what the disk and the link add
-// (tests/system/live_test.py). Each time costs a chunk with the names of its columns: some 45 bytes
-// for each, beside 8 for each value.
-constexpr std::chrono::milliseconds kShowTime{200};
-// Steps between two looks whether somebody watches and it is time. A step takes 0.3 µs to some ms,
+// Steps between two looks whether somebody watches and events wait. A step takes 0.3 µs to some ms,
 // reading the clock 30 ns.
 constexpr std::uint32_t kStepsPerLook = 16;
 // What a row of the ledger takes in memory beside its content.
@@ -114,18 +110,11 @@ void RunRecorder::OnWarning(const std::string& warning) {
 
 void RunRecorder::OnStep() {
   assignment_.control->CountStep();
-  if (++steps_ % kStepsPerLook == 0 && assignment_.log->watched()) Show();
+  const bool look = ++steps_ % kStepsPerLook == 0 && assignment_.log->watched();
+  if (look && writer_.pending_bytes() > 0) writer_.WriteIfDue();
   if (!assignment_.control->yielding()) return;
   writer_.WriteIfDue();
   assignment_.yield();
-}
-
-void RunRecorder::Show() {
-  const auto now = clock_.Elapsed();
-  if (now - last_shown_ >= kShowTime) {
-    last_shown_ = now;
-  }
-  if (writer_.pending_bytes() > 0) writer_.WriteIfDue();
 }
 
 void RunRecorder::OnBoundary(const std::function<RunState()>& state) {

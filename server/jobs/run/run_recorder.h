@@ -29,7 +29,6 @@ class RunRecorder final : public Observer {
         writer_(writer),
         checkpoint_interval_(checkpoint_interval),
         last_checkpoint_(clock.Elapsed()),
-        last_shown_(last_checkpoint_),
         passings_(scenario) {}
 
   /// Adds an event to the log, and what the ledger has of it to the record: also for events that an
@@ -39,7 +38,6 @@ class RunRecorder final : public Observer {
   /// What the samples show of neighbours without a contact between them.
   const Passings& passings() const { return passings_; }
 
-  void OnSampling(std::function<void()> hand_out) override { hand_out_ = std::move(hand_out); }
   void OnIteration(const Iteration& iteration) override;
   void OnGrowth(const Group& group) override;
   void OnCycle(const Cycle& cycle) override;
@@ -58,8 +56,6 @@ class RunRecorder final : public Observer {
   v1::Event Event() const;
   /// Adds a part of a chunk to the log. False: see LogWriter::Add.
   bool AddChunk(v1::Event event);
-  /// While somebody watches: writes what waits, and each kShowTime the rows of an unfilled chunk.
-  void Show();
 
   const Scenario& scenario_;
   const Clock& clock_;
@@ -68,9 +64,6 @@ class RunRecorder final : public Observer {
   const std::chrono::milliseconds checkpoint_interval_;
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
-  std::chrono::steady_clock::time_point last_shown_;
-  /// See Observer::OnSampling; empty before it.
-  std::function<void()> hand_out_;
   std::uint32_t steps_ = 0;
   Passings passings_;
   /// Of the chunks that Keep takes.
