@@ -35,10 +35,8 @@ class Sampler final : public Recording {
 
   /// Takes the first sample, of the state at time 0. Begins a recording of `motion`.
   void RecordStart(const State& state);
-  /// Hands out what does not fill a chunk yet, unless it is kept.
-  void Flush() {
-    if (!before_) log_.Flush();
-  }
+  /// Hands out what is left, at the end of the run.
+  void Flush() { log_.Flush(); }
 
   Sampling Save() const { return log_.Save(); }
   void Restore(Sampling from) { log_.Restore(std::move(from)); }

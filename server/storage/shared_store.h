@@ -134,8 +134,6 @@ struct Note {
     kProgress = 3,
     /// Cells of the sweep wait for a worker.
     kLoans = 4,
-    /// Somebody watches the job, somewhere; told at once and then each second.
-    kWatched = 5,
   };
   Kind kind = Kind::kChanged;
   std::string name;

@@ -154,8 +154,8 @@ TEST(JsonPrintTest, EveryMessageOfTheContractIsWhatProtobufPrints) {
   int seen = 0;
   for (const char* name :
        {"contact/v1/job_service.proto", "contact/v1/job.proto", "contact/v1/event.proto",
-        "contact/v1/model_service.proto", "contact/v1/motion.proto", "contact/v1/scenario.proto",
-        "google/rpc/error_details.proto"}) {
+        "contact/v1/model_service.proto", "contact/v1/motion.proto", "contact/v1/force_table.proto",
+        "contact/v1/scenario.proto", "google/rpc/error_details.proto"}) {
     const auto* file = pb::DescriptorPool::generated_pool()->FindFileByName(name);
     ASSERT_NE(file, nullptr) << name;
     for (int i = 0; i < file->message_type_count(); ++i) {

@@ -96,7 +96,7 @@ class CheckpointTest : public JobsTest {
 
   // The durable events of the last attempt, without times and places; and the result.
   std::vector<std::string> Told(const std::string& name) {
-    const v1::Job job = EndedAlone(name);
+    const v1::Job job = Ended(name);
     std::vector<std::string> told;
     for (v1::Event event : Log(name)) {
       if (event.has_attempt_started()) told.clear();

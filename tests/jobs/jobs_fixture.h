@@ -7,12 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/clock.h"
-#include "jobs/job/lifecycle.h"
 #include "jobs/job_manager.h"
 #include "storage/sqlite/sqlite_store.h"
 #include "testing/await.h"
@@ -221,12 +219,6 @@ class JobsTest : public testing::Test {
   v1::Job Ended(const std::string& name) {
     Log(name, 0, {"state_changed"});
     return Get(name).value();
-  }
-  /// As that, without a watcher: the chunks of its log are whole.
-  v1::Job EndedAlone(const std::string& name) {
-    v1::Job job = Get(name).value();
-    for (; !IsFinal(job.state()); job = Get(name).value()) std::this_thread::yield();
-    return job;
   }
 
   TempDirectory directory_;

@@ -100,7 +100,7 @@ TEST_F(LostRunTest, SpentOutputEndsARealRun) {
   Open();
   v1::CreateJobRequest request = RequestFor(BouncingBall());
   request.mutable_job()->mutable_budget()->set_output_bytes(100'000);
-  const v1::Job job = EndedAlone(Create(request).value().name());
+  const v1::Job job = Ended(Create(request).value().name());
   EXPECT_EQ(job.state(), v1::Job::FAILED);
   EXPECT_EQ(job.state_reason(), "BUDGET_OUTPUT");
   std::size_t bytes = 0;

@@ -180,49 +180,6 @@ TEST_F(SeriesTest, AnyTimeRangeIsThatPartOfTheWhole) {
   }
 }
 
-// Passes on samples in parts of so many rows at most, as for somebody who watches.
-struct InParts final : Observer {
-  Observer& observer;
-  const int most;
-  InParts(Observer& to, int rows) : observer(to), most(rows) {}
-  void OnSamples(const Samples& whole) override {
-    for (int row = 0; row < whole.rows(); row += most) {
-      const auto from = whole.values.begin() + std::ptrdiff_t{row} * whole.columns;
-      const int rows = std::min(most, static_cast<int>(whole.rows()) - row);
-      const auto to = from + std::ptrdiff_t{rows} * whole.columns;
-      observer.OnSamples({whole.first + row, whole.columns, {from, to}});
-    }
-  }
-};
-
-TEST_F(SeriesTest, DoNotDependOnHowTheSamplesWereCutForWatchers) {
-  int most = kSamplesPerChunk;
-  Open({.workers = 1,
-        .run = [&](const Scenario& scenario, Observer& observer, const std::stop_token& stop) {
-          InParts parts(observer, most);
-          return contact::Run(scenario, parts, stop);
-        }});
-  std::map<int, std::vector<std::string>> seen;
-  for (const int rows : {kSamplesPerChunk, 1, 7, 100}) {
-    most = rows;
-    const std::string name = Create(BouncingBall(200));
-    Ended(name);
-    EXPECT_EQ(Log(name, 0, {"frame_chunk"}).size() > 20, rows < 10) << rows;
-    for (v1::GetSeriesRequest request : {Raw(name), Ask(name), Ask(name, {"ball.velocity"})}) {
-      for (const int points : {0, 30, 100}) {
-        if (request.decimation() != v1::GetSeriesRequest::RAW) request.set_max_points(points);
-        for (const double start : {0.0, 60.3}) {
-          request.set_start_time_s(start);
-          v1::Series series = Series(request).value();
-          series.clear_name();
-          seen[rows].push_back(series.SerializeAsString());
-        }
-      }
-    }
-    EXPECT_TRUE(seen[rows] == seen[kSamplesPerChunk]) << rows;
-  }
-}
-
 TEST_F(SeriesTest, ReadsWhatARunningJobHasRecorded) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
     observer.OnSamples({0, 7, std::vector<double>(14, 3)});

@@ -12,7 +12,7 @@ import unittest
 import grpc
 from contact.v1 import job_service_pb2, scenario_pb2
 from contactd import (BINARY, ENDED, PATIENCE_S, Job, Server, ServerTest, cluster, endless,
-                      endless_and_slow, is_cycle, slowly_sampled, spring_wall, three_ball_chain, to_bytes,
+                      endless_and_slow, is_cycle, spring_wall, three_ball_chain, to_bytes,
                       wait_for)
 from shared import LEASE_S, Shared
 
@@ -96,18 +96,6 @@ class ServingTest(ClusterTest):
         self.assertEqual(sequences, sorted(set(sequences)))
         late = [time.time() - e.event_time.ToMicroseconds() / 1e6 for e in arrived[-5:]]
         self.assertLess(min(late), 5)
-
-    def test_watcher_elsewhere_sees_a_run_move_before_a_chunk_is_full(self):
-        one, two = self.shared.front(), self.shared.front()
-        self.shared.worker("--workers=1")
-        name = self.running(one, slowly_sampled())
-        chunks = []
-        for message in two.watch(name, kinds=["frame_chunk"]):
-            chunks += [e.frame_chunk for e in message.events if e.HasField("frame_chunk")]
-            if len(chunks) > 3:
-                break
-        self.assertLess(chunks[3].first_sample, 256)
-        one.cancel(name)
 
     def test_progress_of_a_sweep_reaches_watchers_and_readers_elsewhere(self):
         front = self.shared.front()

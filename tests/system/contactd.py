@@ -308,14 +308,5 @@ def endless_and_slow():
     return scenario
 
 
-def slowly_sampled():
-    """The same with some twenty samples a second: a chunk takes more than ten seconds to fill."""
-    scenario = endless_and_slow()
-    scenario.end_time_s = 1e4
-    scenario.output.sample_interval_s = 0.01
-    scenario.solver.step_s = 4e-7
-    return scenario
-
-
 def is_cycle(event):
     return event.WhichOneof("payload") == "cycle"

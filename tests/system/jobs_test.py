@@ -1,6 +1,5 @@
 """The calls of the contract on a real server."""
 
-import collections
 import math
 import struct
 import unittest
@@ -280,18 +279,11 @@ class DeterminismTest(ServerTest):
             job = self.server.run(scenario)
             self.assertEqual(job.state, Job.SUCCEEDED)
             events = self.server.events(job.name, kinds=["cycle", "frame_chunk", "iteration"])
-            log = collections.defaultdict(list)
-            for event in filter(stored, events):
-                kind = event.WhichOneof("payload")
-                if kind == "frame_chunk":  # How rows are cut into chunks depends on watchers.
-                    for column in event.frame_chunk.columns:
-                        log[column.name].append(column.values)
-                elif kind != "state_changed":
-                    log[kind].append(to_bytes(getattr(event, kind)))
-            logs.append({name: (len(values), b"".join(values)) if name in ("cycle", "iteration")
-                         else b"".join(values) for name, values in log.items()})
-        self.assertGreater(logs[0]["cycle"][0], 5)
-        self.assertGreater(len(logs[0]["ball.velocity"]), 0)
+            payloads = ((e.WhichOneof("payload"), e) for e in events
+                        if stored(e) and not e.HasField("state_changed"))
+            logs.append([(kind, to_bytes(getattr(e, kind))) for kind, e in payloads])
+        self.assertGreater(sum(kind == "cycle" for kind, _ in logs[0]), 5)
+        self.assertGreater(sum(kind == "frame_chunk" for kind, _ in logs[0]), 0)
         self.assertEqual(logs[0], logs[1])
 
 

@@ -22,8 +22,6 @@ constexpr auto kAskTime = 1s;
 constexpr int kMostLooks = 20;
 // Workers tell how far their runs are every few seconds, also if nothing has changed.
 constexpr auto kForgetTime = 15s;
-// Who watches says so each second, and a note or two may be lost.
-constexpr auto kWatchTime = 3s;
 
 }  // namespace
 
@@ -65,32 +63,6 @@ void SharedJobs::Hear(const Note& note) {
       return;
     case Note::Kind::kProgress:
       return HearProgress(note);
-    case Note::Kind::kWatched:
-      return HearOfWatcher(note.name);
-  }
-}
-
-// A run shows itself early to watchers of its log, and those are in other processes.
-void SharedJobs::HearOfWatcher(const std::string& name) {
-  if (!claimer_) return;
-  const std::vector<Scheduler::Here> jobs = claimer_->scheduler().jobs();
-  const auto here = std::ranges::find(jobs, name, &Scheduler::Here::name);
-  if (here == jobs.end()) return;
-  const MutexLock lock(mutex_);
-  Watched& watched = watched_[name];
-  watched.until = clock_.Elapsed() + kWatchTime;
-  if (watched.log == here->log) return;
-  if (watched.log) watched.log->Leave();
-  watched.log = here->log;
-  watched.log->Join();
-}
-
-void SharedJobs::TellOfWatchers() {
-  const auto now = clock_.Elapsed();
-  if (now - last_told_ < kAskTime) return;
-  last_told_ = now;
-  for (const std::string& name : logs_.names()) {
-    store_.Tell({.kind = Note::Kind::kWatched, .name = name});
   }
 }
 
@@ -110,7 +82,6 @@ void SharedJobs::Follow(const std::stop_token& stop) {
     Ask();
     for (int rest = kMostLooks; rest > 0; --rest) {
       const std::set<std::string> names = AwaitMovedLogs(stop);
-      TellOfWatchers();
       if (names.empty()) break;
       AskPositions({names.begin(), names.end()});
     }
@@ -127,7 +98,6 @@ std::set<std::string> SharedJobs::AwaitMovedLogs(const std::stop_token& stop) {
 }
 
 void SharedJobs::Ask() {
-  TellOfWatchers();
   if (!AskMoved()) return;  // The next time tells.
   AskPositions(logs_.names());
   const auto demand =
@@ -167,17 +137,11 @@ void SharedJobs::ForgetOld() {
   const auto now = clock_.Elapsed();
   const MutexLock lock(mutex_);
   std::erase_if(told_, [now](const auto& entry) { return now - entry.second.time > kForgetTime; });
-  std::erase_if(watched_, [now](const auto& entry) {
-    if (now < entry.second.until) return false;
-    entry.second.log->Leave();
-    return true;
-  });
 }
 
 std::shared_ptr<JobLog> SharedJobs::Log(const v1::Job& job) {
   if (IsFinal(job.state())) return std::make_shared<JobLog>(job.last_sequence(), true);
   auto log = logs_.Follow(job);
-  store_.Tell({.kind = Note::Kind::kWatched, .name = job.name()});
   // What has happened between the reading of the job and here.
   store_.Positions({job.name()}, [this](const absl::StatusOr<std::vector<LogPosition>>& now) {
     if (now.ok() && !now->empty()) logs_.Advance(now->front());

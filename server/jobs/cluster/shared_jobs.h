@@ -54,16 +54,9 @@ class SharedJobs final : public Unfinished {
     std::chrono::steady_clock::time_point time = {};
   };
 
-  /// A log of this process that somebody watches elsewhere, and until when that holds.
-  struct Watched {
-    std::shared_ptr<JobLog> log;
-    std::chrono::steady_clock::time_point until = {};
-  };
-
   /// Takes a note, on a thread of the store.
   void Hear(const Note& note);
   void HearProgress(const Note& note);
-  void HearOfWatcher(const std::string& name);
   /// The loop of the thread that asks the store.
   void Follow(const std::stop_token& stop);
   void Ask();
@@ -74,9 +67,7 @@ class SharedJobs final : public Unfinished {
   bool AskMoved();
   /// Notes how far all watched jobs are.
   void AskPositions(const std::vector<std::string>& names);
-  /// Tells of the logs that somebody watches here, if it is time.
-  void TellOfWatchers();
-  /// Forgets what was told of runs, and of their watchers, that nobody tells of any more.
+  /// Forgets what was told of runs that nobody tells of any more.
   void ForgetOld();
   /// Stores the end of a cancelled job that has not begun.
   void Withdraw(StoredJob stored, const Done& done);
@@ -88,9 +79,8 @@ class SharedJobs final : public Unfinished {
   FollowedLogs logs_;
   /// Null: jobs run elsewhere only.
   std::unique_ptr<JobClaimer> claimer_;
-  // Of the thread that asks: MovedJobs::next, and when it told of watchers.
+  /// MovedJobs::next, of the thread that asks.
   std::uint64_t moved_ = 0;
-  std::chrono::steady_clock::time_point last_told_ = {};
 
   mutable Mutex mutex_;
   /// Notified when notes may have been lost, and of notes of logs that are watched.
@@ -101,7 +91,6 @@ class SharedJobs final : public Unfinished {
   Demand demand_ ABSL_GUARDED_BY(mutex_);
   /// By the names of jobs.
   std::map<std::string, Told> told_ ABSL_GUARDED_BY(mutex_);
-  std::map<std::string, Watched> watched_ ABSL_GUARDED_BY(mutex_);
   std::jthread thread_;  // Last: it uses all of the above.
 };
 

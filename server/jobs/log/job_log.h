@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -42,12 +41,6 @@ class JobLog {
 
   /// Says that no more events will come, because they cannot be stored.
   void Fail();
-
-  /// A watcher comes, and goes.
-  void Join() { ++watchers_; }
-  void Leave() { --watchers_; }
-  /// True while there are watchers. Costs no lock: a run asks often.
-  bool watched() const { return watchers_.load(std::memory_order_relaxed) > 0; }
 
   /// What a watcher finds after `position`.
   struct Tail {
@@ -103,7 +96,6 @@ class JobLog {
 
   const Wake on_state_;
   const Wake on_end_;
-  std::atomic<int> watchers_ = 0;
   mutable Mutex mutex_;
   /// The newest events, up to last_, without a hole.
   std::deque<LogRecord> ring_ ABSL_GUARDED_BY(mutex_);

@@ -31,14 +31,9 @@ TailCursor::TailCursor(EventSource source, std::string name, std::shared_ptr<Job
       kinds_(kinds),
       waker_(std::make_shared<const Wake>(std::move(wake))),
       place_(std::move(place)),
-      position_(position) {
-  log_->Join();
-}
+      position_(position) {}
 
-TailCursor::~TailCursor() {
-  log_->Forget(waker_);
-  log_->Leave();
-}
+TailCursor::~TailCursor() { log_->Forget(waker_); }
 
 LogCursor::Next TailCursor::Read(std::size_t max_bytes, Events* out) {
   for (;;) {

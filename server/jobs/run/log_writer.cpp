@@ -44,12 +44,10 @@ void LogWriter::Take(v1::Job job, std::vector<v1::Event> events) {
   Advance(clock_.Elapsed());
 }
 
-bool LogWriter::Add(v1::Event event, std::optional<std::size_t> output) {
+bool LogWriter::Add(v1::Event event) {
   const RunControl::Hold hold(*run_);
   const std::size_t bytes = event.ByteSizeLong();
-  if (!hold || !run_->CountOutput(static_cast<std::int64_t>(output.value_or(bytes)))) {
-    return false;
-  }
+  if (!hold || !run_->CountOutput(static_cast<std::int64_t>(bytes))) return false;
   pending_.bytes += bytes + kEventBytes;
   pending_.events.push_back(std::move(event));
   WriteDueBatch();

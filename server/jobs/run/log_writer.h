@@ -55,9 +55,8 @@ class LogWriter : public std::enable_shared_from_this<LogWriter> {
   /// Takes the job over: stores it with these events and a new epoch. Does not wait.
   void Take(v1::Job job, std::vector<v1::Event> events);
 
-  /// False: it was not taken, because the run has spent its budget or was given up. `output`: bytes
-  /// that count against the budget, if not all of the event.
-  bool Add(v1::Event event, std::optional<std::size_t> output = std::nullopt);
+  /// False: it was not taken, because the run has spent its budget or was given up.
+  bool Add(v1::Event event);
   /// Stores a state from which the run can be resumed, together with the events added before it.
   /// Starts to write at once if no batch is being written.
   void AddCheckpoint(std::string state);

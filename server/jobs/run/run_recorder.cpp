@@ -1,12 +1,9 @@
 #include "jobs/run/run_recorder.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 
 #include "jobs/job/lifecycle.h"
 #include "jobs/run/run_state_codec.h"
-#include "simulation/model/derived.h"
 #include "wire/ledger_codec.h"
 #include "wire/result_codec.h"
 
@@ -14,9 +11,6 @@ namespace contact {
 namespace {
 
 constexpr std::chrono::milliseconds kProgressTime{100};
-// Steps between two looks whether somebody watches and events wait. A step takes 0.3 µs to some ms,
-// reading the clock 30 ns.
-constexpr std::uint32_t kStepsPerLook = 16;
 // What a row of the ledger takes in memory beside its content.
 constexpr std::size_t kRowBytes = 400;
 // A larger checkpoint is not stored, because it would delay the commits of other jobs. Most of a
@@ -60,9 +54,7 @@ void RunRecorder::Keep(v1::Event event) {
   if (event.has_group()) *row.add_groups() = event.group();
   if (event.has_log_entry()) row.add_warnings(event.log_entry().message());
   const bool kept = event.has_cycle() || event.has_group() || event.has_log_entry();
-  const bool added =
-      event.has_frame_chunk() ? AddChunk(std::move(event)) : writer_.Add(std::move(event));
-  if (!added || !kept) return;
+  if (!writer_.Add(std::move(event)) || !kept) return;
   assignment_.control->CountLedger(static_cast<std::int64_t>(row.ByteSizeLong() + kRowBytes));
   assignment_.record->Do([&](v1::Job& job) { job.MergeFrom(row); });
 }
@@ -74,19 +66,8 @@ void RunRecorder::OnSamples(const Samples& samples) {
     v1::Event event = Event();
     *event.mutable_frame_chunk() = std::move(part);
     // Readers leave out samples without all columns.
-    if (!AddChunk(std::move(event)) || assignment_.control->stopping()) return;
+    if (!writer_.Add(std::move(event)) || assignment_.control->stopping()) return;
   }
-}
-
-// The names of columns count once for a whole chunk, so that a budget does not depend on watchers.
-bool RunRecorder::AddChunk(v1::Event event) {
-  const v1::FrameChunk& chunk = event.frame_chunk();
-  std::optional<std::size_t> output;
-  if (chunk.first_sample() % RowsPerChunk(SampleColumns(scenario_)) != 0) {
-    output = sizeof(double) * static_cast<std::size_t>(chunk.samples()) *
-             static_cast<std::size_t>(chunk.columns_size());
-  }
-  return writer_.Add(std::move(event), output);
 }
 
 void RunRecorder::OnProgress(const Progress& progress) {
@@ -110,8 +91,6 @@ void RunRecorder::OnWarning(const std::string& warning) {
 
 void RunRecorder::OnStep() {
   assignment_.control->CountStep();
-  const bool look = ++steps_ % kStepsPerLook == 0 && assignment_.log->watched();
-  if (look && writer_.pending_bytes() > 0) writer_.WriteIfDue();
   if (!assignment_.control->yielding()) return;
   writer_.WriteIfDue();
   assignment_.yield();

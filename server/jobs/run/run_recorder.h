@@ -1,10 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -46,7 +44,7 @@ class RunRecorder final : public Observer {
   /// Publishes the progress, at most every 100 ms, and writes events that have waited long enough.
   void OnProgress(const Progress& progress) override;
   void OnWarning(const std::string& warning) override;
-  /// Shows watchers what is due, and lets others compute if the run is asked to.
+  /// Writes what is due and lets others compute if the run is asked to.
   void OnStep() override;
   /// Stores a checkpoint if it is time for one and it is not too large.
   void OnBoundary(const std::function<RunState()>& state) override;
@@ -54,8 +52,6 @@ class RunRecorder final : public Observer {
  private:
   /// An event of now, without payload.
   v1::Event Event() const;
-  /// Adds a part of a chunk to the log. False: see LogWriter::Add.
-  bool AddChunk(v1::Event event);
 
   const Scenario& scenario_;
   const Clock& clock_;
@@ -64,7 +60,6 @@ class RunRecorder final : public Observer {
   const std::chrono::milliseconds checkpoint_interval_;
   std::chrono::steady_clock::time_point last_checkpoint_;
   std::chrono::steady_clock::time_point last_progress_ = {};
-  std::uint32_t steps_ = 0;
   Passings passings_;
   /// Of the chunks that Keep takes.
   ColumnJoiner joiner_;

@@ -442,8 +442,7 @@ std::vector<Scheduler::Here> Scheduler::jobs() const {
                     .whose = {OwnerOf(active.job), TenantOf(active.job)},
                     .running = running_.contains(name) && !active.ending,
                     .ending = active.ending,
-                    .progress = active.record->Get(false).progress(),
-                    .log = active.log});
+                    .progress = active.record->Get(false).progress()});
   }
   return jobs;
 }

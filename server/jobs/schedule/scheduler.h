@@ -85,7 +85,6 @@ class Scheduler final : public Unfinished {
     /// Its run has ended, and its end is being stored.
     bool ending = false;
     v1::Progress progress = {};
-    std::shared_ptr<JobLog> log = nullptr;
   };
   std::vector<Here> jobs() const;
 

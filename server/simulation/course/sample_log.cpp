@@ -26,7 +26,7 @@ void SampleLog::Begin(double time) {
 }
 
 void SampleLog::End() {
-  if (next_ % RowsPerChunk(samples_.columns) == 0) Flush();
+  if (samples_.rows() == RowsPerChunk(samples_.columns)) Flush();
 }
 
 void SampleLog::Flush() {

@@ -50,7 +50,7 @@ class SampleLog {
       End();
     }
   }
-  /// Hands out the samples that do not fill a chunk yet. The next chunk ends where it would have.
+  /// Hands out what is left, at the end of the run.
   void Flush();
 
   /// Ends the trajectory with the last chunk that was handed out, because the run is stopped.

@@ -15,10 +15,6 @@ struct RunState;
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// The run begins. `hand_out` calls OnSamples with the rows that wait until they fill a chunk, if
-  /// there are any. It may be called in OnStep until the run ends; rows that the search may still
-  /// take back stay.
-  virtual void OnSampling(std::function<void()> /*hand_out*/) {}
   /// A pass of the search for μ has ended; those of an episode come before its cycles. An episode
   /// of a cluster that others join is solved anew, with another number: it has no cycles.
   virtual void OnIteration(const Iteration&) {}
@@ -29,8 +25,7 @@ class Observer {
   virtual void OnGrowth(const Group&) {}
   /// A group has ended in the recorded trajectory, or the run cuts it; comes after its cycles.
   virtual void OnGroup(const Group&) {}
-  /// The next rows of the recorded trajectory, 1 to RowsPerChunk of them: a whole chunk, which
-  /// begins at a multiple of RowsPerChunk, or a part of one.
+  /// The next rows of the recorded trajectory, 1 to RowsPerChunk of them.
   virtual void OnSamples(const Samples&) {}
   /// Called after each episode and each flight between two of them.
   virtual void OnProgress(const Progress&) {}

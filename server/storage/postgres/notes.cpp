@@ -22,7 +22,7 @@ std::optional<Note> NoteOf(const std::string& line) {
   const std::vector<std::string> words = absl::StrSplit(line, ' ');
   Note note;
   int kind = 0;
-  if (words.size() != 6 || !absl::SimpleAtoi(words[0], &kind) || kind < 1 || kind > 5 ||
+  if (words.size() != 6 || !absl::SimpleAtoi(words[0], &kind) || kind < 1 || kind > 4 ||
       !absl::Base64Unescape(words[2], &note.tenant) ||
       !absl::SimpleAtoi(words[3], &note.last_sequence) ||
       !absl::SimpleAtoi(words[4], &note.state) || !absl::Base64Unescape(words[5], &note.progress)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/v1/scenario.pb.h"
+#include "contact/v1/force_table.pb.h"
 #include "simulation/laws/force_table.h"
 #include "wire/rules/rules.h"
 
