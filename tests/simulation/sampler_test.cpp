@@ -90,11 +90,12 @@ TEST(Sampler, RowsLieOnTheTrajectoryAtEqualIntervals) {
 TEST(Sampler, ChunksAreFullButTheLastAndFollowEachOther) {
   Flight flight(1e-3);
   flight.FlyUntil(1);
-  EXPECT_EQ(flight.observer.chunks.size(), 3u);  // Those that are full.
-  EXPECT_EQ(flight.sampler.Save().pending.rows(), 1001 - 3 * kSamplesPerChunk);
+  constexpr std::size_t kFull = 1001 / kSamplesPerChunk;
+  EXPECT_EQ(flight.observer.chunks.size(), kFull);
+  EXPECT_EQ(flight.sampler.Save().pending.rows(), 1001 % kSamplesPerChunk);
   flight.sampler.Flush();
   flight.sampler.Flush();  // Nothing is left.
-  ASSERT_EQ(flight.observer.chunks.size(), 4u);
+  ASSERT_EQ(flight.observer.chunks.size(), kFull + 1);
   EXPECT_EQ(ExpectNoHole(flight.observer.chunks), 1001);
   for (const Samples& chunk : flight.observer.chunks) EXPECT_EQ(chunk.columns, 9);
 }
@@ -171,7 +172,7 @@ TEST(Sampler, OfWhatIsHeldNothingFollowsAHoleOnceTheRunIsStopped) {
 
 TEST(Sampler, AnotherOneGoesOnWithWhatWasPending) {
   Flight flight(1e-3), later(1e-3);
-  flight.FlyUntil(0.4);
+  flight.FlyUntil(1.5e-3 * kSamplesPerChunk);
   later.sampler.Restore(flight.sampler.Save());
   later.motion.Begin(flight.motion.Save(), true);
   later.FlyUntil(1);
