@@ -41,7 +41,6 @@ class Runner {
   }
 
   Outcome Run() {
-    observer_.OnSampling([this] { sampler_.Flush(); });
     while (run_.state.time < scenario_.end_time && run_.outcome.end == Outcome::End::kFinished) {
       GoOn();
       TellProgress();

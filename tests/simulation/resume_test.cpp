@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "simulation/episode/run_state.h"
-#include "simulation/model/derived.h"
 #include "testing/cases.h"
 
 namespace contact {
@@ -166,49 +165,6 @@ TEST(Resume, GoesOnAsIfItHadNeverStopped) {
     }
   }
   EXPECT_GT(resumed, 20U);
-}
-
-// Has what waits handed out in every step, as the most impatient watcher would.
-struct Restless final : Observer {
-  std::vector<double> values;
-  std::int64_t chunks = 0, rows = 0;
-  std::function<void()> hand_out;
-  // States of the run, and how much was handed out then.
-  std::vector<std::pair<std::size_t, RunState>> boundaries;
-
-  void OnSampling(std::function<void()> now) override { hand_out = std::move(now); }
-  void OnStep() override { hand_out(); }
-  void OnSamples(const Samples& s) override {
-    EXPECT_EQ(s.first, rows);
-    const std::int64_t most = RowsPerChunk(s.columns);
-    EXPECT_LE(s.rows(), most - s.first % most) << "a part ends where the chunk does";
-    rows += s.rows();
-    values.insert(values.end(), s.values.begin(), s.values.end());
-    ++chunks;
-  }
-  void OnBoundary(const std::function<RunState()>& state) override {
-    boundaries.emplace_back(values.size(), state());
-  }
-};
-
-TEST(Resume, WhatIsHandedOutEarlyChangesNoRowAndNoState) {
-  std::int64_t more = 0;
-  for (const auto& [name, scenario] : Scenarios()) {
-    const std::vector<double> plain = testing::RunAndRecord(scenario).samples;
-    Restless restless;
-    contact::Run(scenario, restless);
-    ASSERT_EQ(restless.values, plain) << name;
-    more += restless.chunks - restless.rows / RowsPerChunk(SampleColumns(scenario));
-    if (restless.boundaries.empty()) continue;
-    const auto& [known, state] = restless.boundaries[restless.boundaries.size() / 2];
-    Restless rest;
-    rest.rows = state.sampling.pending.first;
-    contact::Resume(scenario, state, rest);
-    rest.values.insert(rest.values.begin(), plain.begin(),
-                       plain.begin() + static_cast<std::ptrdiff_t>(known));
-    ASSERT_EQ(rest.values, plain) << name;
-  }
-  EXPECT_GT(more, 1000);
 }
 
 }  // namespace

@@ -59,7 +59,6 @@ ClusterRun::ClusterRun(const Scenario& scenario, Observer& observer, std::stop_t
 }
 
 Outcome ClusterRun::Run() {
-  observer_.OnSampling([this] { frames_.Flush(); });
   while (run_.outcome.end == Outcome::End::kFinished) {
     const Agenda::Entry entry = agenda_.Next();
     if (entry.time == kNever) break;

@@ -25,7 +25,7 @@ class Frames {
   void RecordUntil(double instant, const Pieces& pieces);
   /// A piece ends before all samples to come.
   void Forget(const Piece& piece);
-  /// Hands out what does not fill a chunk yet.
+  /// Hands out what is left, at the end of the run.
   void Flush() { log_.Flush(); }
   /// True if samples are missing because the run was asked to stop.
   bool cut_short() const { return log_.cut_short(); }
