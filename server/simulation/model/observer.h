@@ -38,9 +38,9 @@ class Observer {
   virtual void OnBoundary(const std::function<RunState()>& /*state*/) {}
 };
 
-/// The most rows of Samples in one call of OnSamples. Two such pieces wait for each reader that never
-/// reads: with 256 rows of 15 columns 110 kB in all, with 128 it is 76 (fault/drain holds 96). Fewer
-/// rows repeat the names of their columns more often.
+/// The most rows of Samples in one call of OnSamples. Two such pieces wait for each reader that
+/// never reads: with 256 rows of 15 columns 110 kB in all, with 128 it is 76 (fault/drain holds
+/// 96). Fewer rows repeat the names of their columns more often.
 inline constexpr int kSamplesPerChunk = 128;
 /// The most values in one call, unless a single row has more: 512 KiB, so that it fits into a
 /// message with the names of its columns.
