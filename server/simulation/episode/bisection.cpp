@@ -71,8 +71,9 @@ Root Bisection::Finish(Root root) {
   return root;
 }
 
-Root Bisection::Solve(const GroupSight& group, bool sharply) {
+Root Bisection::Solve(const GroupSight& group, bool sharply, double near) {
   group_ = group;
+  near_ = std::min(near, kRoot);
   sharply_ = sharply;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
   error_ = kCoarseTolerance;
@@ -91,6 +92,7 @@ Root Bisection::Exactly(Root root) {
 
 bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
+  near_ = kRoot;
   until_ = kForever;
   error_ = kCoarseTolerance;
   sharply_ = true;
@@ -132,7 +134,7 @@ Root Bisection::Look() {
   more_ = less_ = {.there = false};
   const Point first = At(group_.mu);
   if (problem_.Aborted()) return Root::kAborted;
-  if (std::abs(first.excess) < kRoot) return Root::kFound;
+  if (IsRoot(first)) return Root::kFound;
   Keep(first);
   Approach(first);
   if (problem_.Aborted()) return Root::kAborted;
@@ -143,10 +145,15 @@ Root Bisection::Look() {
 // Whether exact passes see what the coarse ones saw: the root, or that there is none.
 bool Bisection::Confirmed(Root root) {
   const double mu = problem_.groups.At(group_.id).mu;
-  if (root == Root::kFound) return std::abs(At(mu).excess) < kRoot;
+  if (root == Root::kFound) return IsRoot(At(mu));
   const bool confirmed = Holds();
   problem_.groups.At(group_.id).mu = mu;
   return confirmed;
+}
+
+// Coarse passes tell no less than what Newton needs to go on.
+bool Bisection::IsRoot(const Point& point) const {
+  return std::abs(point.excess) < (error_ > 0 ? kRoot : near_);
 }
 
 // Whether both sides of the bracket are what they were; takes them as they are now.
@@ -155,7 +162,7 @@ bool Bisection::Holds() {
     if (!side->there) continue;
     const Point now = At(side->mu);
     const bool holds = now.there && now.ended == side->ended &&
-                       (now.excess > 0) == (side == &more_) && std::abs(now.excess) > kRoot;
+                       (now.excess > 0) == (side == &more_) && !IsRoot(now);
     *side = now;
     if (!holds) return false;
   }
@@ -237,7 +244,7 @@ Root Bisection::Narrow() {
     const bool linear = i % 3 != 2 && !far && less_.ended;
     const Point point = At(linear ? more_.mu + weight * width : half);
     if (problem_.Aborted()) return Root::kAborted;
-    if (std::abs(point.excess) < kRoot) return Root::kFound;
+    if (IsRoot(point)) return Root::kFound;
     const bool more = point.excess > 0;
     weight_of_less = i == 0 || more != was_more ? 1 : weight_of_less * (more ? 0.5 : 2);
     was_more = more;

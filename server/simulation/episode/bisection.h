@@ -21,7 +21,8 @@ class Bisection {
   explicit Bisection(Problem& problem) : problem_(problem) {}
 
   /// `sharply`: a jump is to be told as narrowly as it can be; else it is enough that it is one.
-  Root Solve(const GroupSight& group, bool sharply);
+  /// `near`: a root misses by less, relative, in ε²; at most what Newton needs to go on.
+  Root Solve(const GroupSight& group, bool sharply, double near = 1);
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
@@ -40,6 +41,7 @@ class Bisection {
   bool HasRoot(const Point& from, const Point& to, int depth);
   Root Look();
   Root Exactly(Root root);
+  bool IsRoot(const Point& point) const;
   bool Confirmed(Root root);
   bool Holds();
   bool HasNone() const;
@@ -52,6 +54,7 @@ class Bisection {
 
   Problem& problem_;
   GroupSight group_;  // As first seen.
+  double near_ = 0;   // The excess of a root.
   double until_ = 0;  // What has not ended then is open [s].
   double error_ = 0;  // Relative error of a pass; 0: as little as the scenario asks.
   bool sharply_ = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "simulation/episode/front.h"
 #include "simulation/episode/run_state.h"
@@ -70,6 +71,12 @@ int Answered(const Groups& groups) {
   }));
 }
 
+// Whether the march takes the place of fronts.
+bool Marches() {
+  static const bool marches = std::getenv("CONTACT_MARCH") != nullptr;
+  return marches;
+}
+
 }  // namespace
 
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
@@ -79,6 +86,7 @@ EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer&
       newton_(problem_, log_),
       bisection_(problem_),
       growing_(problem_, log_, bisection_),
+      march_(problem_, log_, growing_, bisection_),
       paper_(problem_, log_),
       recorder_(scenario, motion, observer, problem_.groups) {}
 
@@ -131,6 +139,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
     const Found found = paper_.Solve(kPaperCycles, scenario_.solver.max_iterations);
     return found == Found::kAborted ? problem_.pause() : Motion::Pause::kQuiet;
   }
+  if (Marches()) return MarchOn();
   const auto running = static_cast<int>(std::ranges::count_if(
       start.contacts, [](const ContactState& c) { return c.phase == Phase::kRestitution; }));
   window_.Begin(start.time, running, Answered(problem_.groups),
@@ -184,6 +193,15 @@ Sight EpisodeSolver::Scan(bool coarse) {
   }
 }
 
+Motion::Pause EpisodeSolver::MarchOn() {
+  const March::End end = march_.Solve(rejected_);
+  tentative_ = end.tentative;
+  if (!tentative_ && end.pause == Motion::Pause::kQuiet && end.until < kNever) {
+    return Record(end.sight, end.until);
+  }
+  return end.pause;
+}
+
 Motion::Pause EpisodeSolver::Search() {
   sweeps_ = stalls_ = 0;
   guessing_ = true;
@@ -224,9 +242,11 @@ Motion::Pause EpisodeSolver::Search() {
   return Motion::Pause::kQuiet;
 }
 
-// What begins before `until` has its answer.
+// What begins before `until` has its answer. Where the pass paused for itself, so will the
+// recording: told to end there, it may end a rounding before the event, and that again and again.
 Motion::Pause EpisodeSolver::Record(const Sight& sight, double until) {
-  if (until < problem_.end()) record_until_ = until;
+  const bool pauses = sight.pause == Motion::Pause::kQuiet && until >= sight.time;
+  if (until < problem_.end() && !pauses) record_until_ = until;
   solved_until_ = until - kAtOnce * (until - problem_.start_time());
   log_.Accept(sight);
   return Motion::Pause::kQuiet;

@@ -4,6 +4,7 @@
 
 #include "simulation/episode/bisection.h"
 #include "simulation/episode/growing.h"
+#include "simulation/episode/march.h"
 #include "simulation/episode/newton.h"
 #include "simulation/episode/paper_search.h"
 #include "simulation/episode/recorder.h"
@@ -50,6 +51,7 @@ class EpisodeSolver {
 
  private:
   Motion::Pause Search();
+  Motion::Pause MarchOn();
   Sight Scan(bool coarse);
   Motion::Pause Record(const Sight& sight, double until);
   Motion::Pause Tentatively();
@@ -67,6 +69,7 @@ class EpisodeSolver {
   Newton newton_;
   Bisection bisection_;
   Growing growing_;
+  March march_;
   PaperSearch paper_;
   Window window_;
   Recorder recorder_;

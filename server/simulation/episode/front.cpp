@@ -50,7 +50,7 @@ Span FrontSpan(const Sight& sight, const Groups& groups, double tolerance, doubl
 bool Misses(const GroupSight& group, const Groups& groups, double tolerance) {
   if (!group.sought || !group.ended || group.weak) return false;
   const Unknown* unknown = groups.Find(group.id);
-  if (unknown != nullptr && unknown->Decided()) return false;
+  if (unknown != nullptr && (unknown->Decided() || unknown->waits)) return false;
   return !(std::abs(group.Miss()) <= tolerance);
 }
 
@@ -100,6 +100,17 @@ double LastFinal(const Sight& sight, const std::vector<GroupId>& front) {
 bool FrontIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end) {
   const Span span = FrontSpan(sight, groups, tolerance, end);
   return span.start < span.end && span.closed;
+}
+
+bool MissIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end,
+                    std::size_t few) {
+  const Span span = FrontSpan(sight, groups, tolerance, end);
+  if (!(span.start < span.end)) return false;
+  if (span.closed) return true;
+  const auto in = [&](const GroupSight& g) {
+    return g.sought && !g.weak && g.start_time < end && span.Meets(g);
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(sight.groups, in)) > few;
 }
 
 }  // namespace contact

@@ -27,4 +27,8 @@ double LastFinal(const Sight& sight, const std::vector<GroupId>& front);
 /// Whether there is such a front and all of it has ended.
 bool FrontIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end);
 
+/// Whether the first miss is seen with all that overlap it to their ends, or with more than `few`.
+bool MissIsComplete(const Sight& sight, const Groups& groups, double tolerance, double end,
+                    std::size_t few);
+
 }  // namespace contact

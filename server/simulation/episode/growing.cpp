@@ -191,6 +191,10 @@ bool Growing::Reopen(const Sight& scan, double before) {
       return true;
     }
     if (!without || problem_.Aborted()) continue;
+    // What loads limit may have a root while all else is held, and none with all else solved.
+    const bool refuted =
+        unknown.status == Cycle::Status::kLimited && unknown.reopened == kMostReopened;
+    if (refuted) continue;
     const bool found = HasRoot(g, scan);
     if (!found && Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
     unknown.given_up = unknown.reopened == kMostReopened;

@@ -29,8 +29,8 @@ bool IsSought(const Scenario& scenario, int contact) {
          !IsUndamped(scenario, contact);
 }
 
-void Membership::Begin(bool guess) {
-  guessing_ = guess;
+void Membership::Begin(double guess_from) {
+  guess_from_ = guess_from;
   guess_.Begin();
 }
 
@@ -75,7 +75,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
   Unknown& unknown = groups_.At(IdOf(state));
   unknown.start_time = cycle.start_time;
   const bool law = !IsSought(scenario_, cycle.contact);
-  if (law || (!unknown.corrected && (guessing_ || unknown.first_mu == 0))) {
+  if (law || (!unknown.corrected && (cycle.start_time >= guess_from_ || unknown.first_mu == 0))) {
     double mu = guess_.Factor(state, effective_mass, external_force);
     if (std::isnan(mu)) mu = std::isnan(state.last_mu) ? 0 : state.last_mu;
     Guess(unknown, mu);

@@ -21,8 +21,9 @@ class Membership {
         guess_(scenario, motion),
         groups_(groups) {}
 
-  /// A pass begins. `guess`: groups whose μ is a mere guess are guessed anew.
-  void Begin(bool guess);
+  /// A pass begins. Groups that begin at `guess_from` [s] or later, and whose μ is a mere guess,
+  /// are guessed anew.
+  void Begin(double guess_from);
 
   /// A cycle starts: takes it into the open group of its contact, or opens one. Returns its μ.
   double Start(ContactState& state, double effective_mass, double external_force);
@@ -55,7 +56,7 @@ class Membership {
   const bool packing_;
   FirstGuess guess_;
   Groups& groups_;
-  bool guessing_ = true;
+  double guess_from_ = -1e300;
 };
 
 }  // namespace contact

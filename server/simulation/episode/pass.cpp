@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "simulation/episode/front.h"
+#include "simulation/episode/search_options.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -83,7 +84,7 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
   cycles_ = late_cycles_ = running_ = columns_ = 0;
   Stir(start.time);
   enough_ = false;
-  membership_.Begin(plan.guess);
+  membership_.Begin(plan.guess_from);
   motion_.Begin(start, false, plan.tolerance);
   do {
     sight_.pause = motion_.Advance(plan.until, *this, nullptr, stop, step_limit);
@@ -118,8 +119,8 @@ GroupSight* Pass::Seen(const ContactState& state) {
 }
 
 bool Pass::WantsColumn(const GroupId& id) const {
-  return plan_.sensitive &&
-         (plan_.front.empty() || std::ranges::find(plan_.front, id) != plan_.front.end());
+  return plan_.sensitive && (plan_.wide || plan_.front.empty() ||
+                             std::ranges::find(plan_.front, id) != plan_.front.end());
 }
 
 CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, double external_force) {
@@ -237,10 +238,25 @@ bool Pass::FrontHasEnded() const {
   });
 }
 
+// Whether the next group that misses has ended, with all that overlap it where these are few.
+bool Pass::ShowsMiss() const {
+  const auto misses = [&](const GroupSight& g) {
+    return g.start_time < plan_.end && Misses(g, groups_, plan_.to_miss);
+  };
+  if (std::ranges::none_of(sight_.groups, misses)) return false;
+  const auto of_front = [&](const GroupSight& g) {
+    return misses(g) && std::ranges::find(plan_.front, g.id) != plan_.front.end();
+  };
+  if (std::ranges::any_of(sight_.groups, of_front)) return true;
+  return MissIsComplete(sight_, groups_, plan_.to_miss, plan_.end, kSearch.at_once);
+}
+
 bool Pass::Enough() const {
-  if (!plan_.front.empty()) return FrontHasEnded();
+  if (!plan_.front.empty() && !FrontHasEnded()) return false;
+  if (!plan_.front.empty() && plan_.to_miss == 0) return true;
   if (running_ == 0 && motion_.time() >= plan_.end) return true;
   if (plan_.first_quiet) return false;
+  if (plan_.to_miss > 0) return ShowsMiss();
   return FrontIsComplete(sight_, groups_, scenario_.solver.restitution_tolerance, plan_.end);
 }
 
@@ -292,7 +308,7 @@ bool Pass::SeesFar() const {
 
 bool Pass::OnStep() {
   observer_.OnStep();
-  enough_ = enough_ || SeesFar();
+  enough_ = enough_ || SeesFar() || (motion_.time() > plan_.front_until && !FrontHasEnded());
   if (++idle_steps_ % kStride != 0 || plan_.patient) return !enough_;
   const bool stuck = scenario_.solver.fixed_step == 0 && idle_steps_ > kStuck;
   enough_ = enough_ || stuck || Creeps();

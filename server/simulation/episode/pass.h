@@ -10,24 +10,29 @@
 namespace contact {
 
 /// Later than any end [s]; more than any miss.
-inline constexpr double kForever = 1e300;
+inline constexpr double kForever = kForever;
 
 /// One pass through the motion with the μ of the groups, and what it shows of them.
 class Pass final : public CycleHost {
  public:
   /// What a pass is to see.
   struct Plan {
-    double tolerance = 0;             ///< Relative, of the integration; 0: the scenario's.
-    double end = 0;                   ///< Of the run: what begins later is no matter of the search.
-    double far = kNever;              ///< So far beyond that end it follows a few cycles only [s].
-    double until = kForever;          ///< It goes no further [s].
-    int most_cycles = 1;              ///< It ends when so many have begun.
-    bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
-    bool guess = false;               ///< It guesses anew what was only guessed.
-    bool patient = false;             ///< It goes on where nothing turns.
-    bool retries = true;              ///< It may end because a rest should have ended earlier.
-    bool sensitive = false;           ///< It differentiates by the μ of these groups:
-    std::vector<GroupId> front = {};  ///< it ends when all have ended. Empty: by what a scan needs.
+    double tolerance = 0;        ///< Relative, of the integration; 0: the scenario's.
+    double end = 0;              ///< Of the run: what begins later is no matter of the search.
+    double far = kNever;         ///< So far beyond that end it follows a few cycles only [s].
+    double until = kForever;      ///< It goes no further [s].
+    int most_cycles = 1;         ///< It ends when so many have begun.
+    bool first_quiet = false;    ///< It ends at the first instant at which no cycle runs.
+    double guess_from = kNever;  ///< What begins no earlier is guessed anew, if it was [s].
+    bool patient = false;        ///< It goes on where nothing turns.
+    bool retries = true;         ///< It may end because a rest should have ended earlier.
+    bool sensitive = false;      ///< It differentiates by the μ of the front,
+    bool wide = false;           ///< or of all groups.
+    double to_miss = 0;          ///< It goes on to a group that misses by more; 0: to the end
+                                 ///< of the front.
+    double front_until = kForever;///< So far for a front that does not end [s].
+    std::vector<GroupId> front =
+        {};  ///< Groups to be seen to their ends. Empty: what a scan needs.
   };
 
   Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups);
@@ -61,6 +66,7 @@ class Pass final : public CycleHost {
   bool SeesFar() const;
   bool Enough() const;
   bool FrontHasEnded() const;
+  bool ShowsMiss() const;
 
   const Scenario& scenario_;
   Motion& motion_;

@@ -24,6 +24,8 @@ constexpr double kWorth = 0.1, kShortly = 1e-3;
 constexpr int kMostRetries = 30;
 // Coarser passes miss events.
 constexpr double kCoarsest = 1e-6;
+// Before all that begins.
+constexpr double kAlways = -1e300;
 
 bool Swings(const Scenario& scenario) {
   const auto is_sine = [](const auto& piece) { return piece.amplitude != 0; };
@@ -70,7 +72,7 @@ Sight Problem::Scan(int most_cycles, bool guess, bool coarse) {
   begun_.clear();
   Sight sight = Look(*start_, {.tolerance = coarse ? Tolerance(kCoarsest) : 0,
                                .most_cycles = most_cycles,
-                               .guess = guess,
+                               .guess_from = guess ? kAlways : kNever,
                                .sensitive = coarse});
   sight.exact = !coarse;
   seen_ = sight.time;
@@ -78,7 +80,24 @@ Sight Problem::Scan(int most_cycles, bool guess, bool coarse) {
 }
 
 Sight Problem::SeeStretch(int most_cycles) {
-  return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess = true});
+  return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess_from = kAlways});
+}
+
+Sight Problem::March(const std::vector<GroupId>& block, const Marching& how) {
+  trusting_ = true;
+  begun_.clear();
+  const double tolerance = Tolerance(how.tolerance);
+  Sight sight = Look(*start_, {.tolerance = tolerance,
+                               .most_cycles = kMostCyclesOfATrial,
+                               .guess_from = how.guess_from,
+                               .sensitive = how.slopes,
+                               .wide = how.wide,
+                               .to_miss = how.miss,
+                               .front_until = how.until,
+                               .front = block});
+  sight.exact = tolerance == 0 || tolerance <= scenario_.solver.relative_tolerance;
+  seen_ = sight.time;
+  return sight;
 }
 
 Motion::Pause Problem::SeeFlight() { return Look(*start_, {.until = end_, .patient = true}).pause; }

@@ -25,6 +25,17 @@ class Problem {
   Sight Scan(int most_cycles, bool guess, bool coarse = false);
   /// Sees the first stretch without pause, each cycle of it.
   Sight SeeStretch(int most_cycles);
+  /// How a pass of the march is made.
+  struct Marching {
+    bool slopes = false;  ///< With slopes by the μ of the block, or if `wide` of all groups.
+    bool wide = false;
+    double until = 1e300;        ///< What of the block has not ended then is open [s].
+    double tolerance = 0;        ///< Of the integration; 0: the scenario's, which is the finest.
+    double miss = 0;             ///< It goes on to the next group that misses by more than this.
+    double guess_from = kNever;  ///< What begins no earlier is guessed anew [s].
+  };
+  /// A pass from the start through the ends of a block to the next group that misses.
+  Sight March(const std::vector<GroupId>& block, const Marching& how);
   /// Sees the flight until a cycle begins, at most to the end of the run.
   Motion::Pause SeeFlight();
   /// The front with the μ that its groups now have. `until`: what has not ended then is open [s].

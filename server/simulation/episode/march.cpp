@@ -1,0 +1,379 @@
+#include "simulation/episode/march.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulation/episode/front.h"
+#include "simulation/episode/search_options.h"
+
+namespace contact {
+namespace {
+
+// Before what begins next, relative: round-off must not let it begin.
+constexpr double kAtOnce = 1e-9;
+
+Eigen::VectorXd Step(const Residuals::Value& value) {
+  const Eigen::VectorXd step = -value.slopes.partialPivLu().solve(value.residuals);
+  return step.allFinite() ? step : Eigen::VectorXd(-value.residuals);
+}
+
+}  // namespace
+
+bool March::IsSettled(const GroupId& id) const {
+  const auto polished = polished_.find(id);
+  return polished != polished_.end() && polished->second.settled;
+}
+
+Timeline March::Read(const Sight& sight) const {
+  return {sight, problem_.groups, problem_.end(),
+          [this](const GroupId& id) { return IsSettled(id); }};
+}
+
+Sight March::Look() {
+  return problem_.March({}, {.slopes = coarse_,
+                             .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
+                             .miss = kSearch.ahead_miss,
+                             .guess_from = guess_from_});
+}
+
+// What a pass tells of each group; whether one has become negligible or is no more, for that
+// changes its μ.
+bool March::Note(const Sight& sight) {
+  bool changed = false;
+  for (const GroupSight& g : sight.groups) {
+    Unknown& u = problem_.groups.At(g.id);
+    u.cut = !g.ended || g.end_time > problem_.end();
+    if (!g.ended) continue;
+    if (u.length == 0) u.length = g.length, u.speed = g.speed;
+    // A coarse pass may find what is negligible, but not that it is no more.
+    if (sight.exact || (g.weak && u.flips == 0)) {
+      const bool flips = g.sought && u.weak != g.weak;
+      changed |= flips;
+      u.flips += flips;
+      u.weak = g.weak;
+    }
+    u.restitution_out = std::sqrt(std::max(g.squared, 0.0));
+    const bool ends_after_all = sight.exact && u.status == Cycle::Status::kUnfinished &&
+                                g.end_time <= problem_.end() && u.reopened < kSearch.reopened;
+    u.reopened += ends_after_all;
+    if (u.Decided() && !u.given_up && !ends_after_all) continue;
+    const bool missed = g.sought && !(std::abs(g.Miss()) <= problem_.tolerance());
+    u.status = missed ? Cycle::Status::kNotConverged : Cycle::Status::kConverged;
+  }
+  if (sight.exact && sight.time >= problem_.end()) problem_.groups.NoteCut(sight, problem_.end());
+  return changed;
+}
+
+March::End March::Solve(bool rejected) {
+  rejected_ = rejected;
+  coarse_ = true;
+  guess_from_ = 0;
+  next_.reset();
+  polished_.clear(), tries_.clear(), waited_.clear();
+  TakeUp();
+  growing_.Begin();
+  for (int round = 0; round < kSearch.rounds; ++round) {
+    const Sight sight = next_ ? *std::exchange(next_, {}) : Look();
+    if (problem_.Aborted() || sight.pause == Motion::Pause::kNumeric) {
+      return {.pause = sight.pause};
+    }
+    if (Note(sight) && round < kSearch.rounds / 2) continue;
+    const Timeline timeline = Read(sight);
+    const GroupSight* miss = timeline.FirstMiss(kSearch.ahead_miss);
+    if (miss == nullptr && TakeUp()) continue;
+    if (sight.exact &&
+        timeline.FirstMiss(problem_.tolerance()) == miss) {  // All before it is solved.
+      if (IsEnough(sight, miss)) {
+        if (Reopens(sight, miss)) continue;
+        return Recorded(sight, miss);
+      }
+    } else if (IsDue(sight, miss)) {
+      if (const auto end = Polish(sight, miss)) return *end;
+      continue;
+    }
+    if (miss != nullptr) Advance(sight, *miss);
+    if (problem_.Aborted()) return {.pause = problem_.pause()};
+  }
+  return {};
+}
+
+// Whether what is final before the first miss is worth a recording.
+bool March::IsEnough(const Sight& sight, const GroupSight* miss) const {
+  const double start = problem_.start_time();
+  return miss == nullptr ||
+         Read(sight).FinalUntil(miss) - start > kSearch.commit * (sight.time - start);
+}
+
+// Takes up again what was found to have no solution, or does not end; false: there is none.
+bool March::Reopens(const Sight& sight, const GroupSight* miss) {
+  const bool all = miss == nullptr && !sight.crowded;
+  const double final = all ? kNever : Read(sight).FinalUntil(miss);
+  const bool reopens = growing_.Reopen(sight, final) || (all && growing_.Close(sight));
+  if (reopens) polished_.clear();
+  return reopens;
+}
+
+March::End March::Recorded(const Sight& sight, const GroupSight* miss) const {
+  const double start = problem_.start_time(), final = Read(sight).FinalUntil(miss);
+  const bool all = miss == nullptr && !sight.crowded;
+  if (all) return {.until = std::min(sight.time, problem_.end()), .sight = sight};
+  if (final >= problem_.end()) return {.until = problem_.end(), .sight = sight};
+  const double length = (final > start ? final : sight.time) - start;
+  return {.until = start + (1 - kAtOnce) * length, .sight = sight};
+}
+
+// Whether what the march has solved ahead is to be polished now: nothing misses, or much of it is
+// final and what misses has nothing to do with it.
+bool March::IsDue(const Sight& sight, const GroupSight* miss) const {
+  if (miss == nullptr) return true;
+  const Timeline timeline = Read(sight);
+  if (timeline.Block(*miss, 0, kSearch.block).size() > 1) return false;
+  return IsEnough(sight, miss);
+}
+
+// Whether what is polished is all up to the first instant at which no cycle runs.
+bool March::MayBeAll(const Sight& sight, const GroupSight* miss) const {
+  return miss == nullptr && !rejected_ && !sight.crowded && sight.pause == Motion::Pause::kQuiet &&
+         std::ranges::all_of(sight.groups, [](const auto& g) { return g.separated || !g.sought; });
+}
+
+// Solves all that was solved ahead to the scenario's tolerance; where that stalls, the first that
+// misses with what overlaps it.
+std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* miss) {
+  const Timeline timeline = Read(sight);
+  const Ids open = timeline.Solved(problem_.tolerance(), kSearch.ahead_miss);
+  const bool all = MayBeAll(sight, miss);
+  const auto worst = [&] {
+    double most = 0;
+    for (const GroupId& id : open) most = std::max(most, std::abs(sight.Find(id)->Miss()));
+    return most;
+  };
+  const bool guessed = std::ranges::none_of(
+      open, [&](const GroupId& id) { return problem_.groups.At(id).corrected; });
+  if (all && guessed && worst() <= kSearch.noise) {
+    return End{.until = problem_.end(), .tentative = true};
+  }
+  coarse_ = false;
+  if (open.empty()) return {};
+  const double goal = problem_.tolerance();
+  const Hybrid::End end = SolveBlock(open, Has(open, sight) ? &sight : nullptr, goal,
+                                     Precision::kExact, all ? kSearch.unseen * goal : 0);
+  if (end == Hybrid::End::kUnseen) return End{.until = problem_.end(), .tentative = true};
+  if (end == Hybrid::End::kLimit) GiveUp(open);
+  if (end == Hybrid::End::kSolved) Settle(open);
+  if (end == Hybrid::End::kStalled) SolveStrictly();
+  return {};
+}
+
+// One group after the other to the scenario's tolerance, up to where the march has not been: what
+// is solved ahead to less may have no solution.
+void March::SolveStrictly() {
+  while (!problem_.Aborted()) {
+    coarse_ = false;
+    const Sight exact = next_ ? *std::exchange(next_, {}) : Look();
+    const GroupSight* first = Read(exact).FirstMiss(problem_.tolerance());
+    const bool ahead = first == Read(exact).FirstMiss(kSearch.ahead_miss);
+    if (ahead || !SolveFirst(exact, *first, problem_.tolerance(), Precision::kExact)) return;
+  }
+}
+
+// A group is settled if what was solved since it was polished last has not moved its μ.
+void March::Settle(const Ids& ids) {
+  for (const GroupId& id : ids) {
+    const double mu = problem_.groups.At(id).mu;
+    Polished& polished = polished_[id];
+    polished.settled = std::abs(mu - polished.mu) <= kSearch.influence * problem_.tolerance() * mu;
+    polished.mu = mu;
+  }
+}
+
+// Solves the first group that misses with what overlaps it, well enough to go on.
+void March::Advance(const Sight& sight, const GroupSight& miss) {
+  coarse_ = true;
+  SolveFirst(sight, miss, kSearch.ahead_miss, Precision::kAhead);
+  if (next_ == std::nullopt) coarse_ = true;
+}
+
+// Solves a group with what overlaps it, few of these at once if that helps; false: it stalls, and
+// has its verdict.
+bool March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how) {
+  const Timeline timeline = Read(sight);
+  const GroupSight group = miss;
+  const Ids block = timeline.Block(miss, 0, kSearch.block);
+  const Ids wide = timeline.Block(miss, kSearch.at_once, kSearch.block);
+  const bool ahead = how == Precision::kAhead;
+  for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
+    const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
+    blurs_ = false;
+    const Hybrid::End end =
+        SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
+    if (end == Hybrid::End::kLimit) GiveUp(ids);
+    if (problem_.Aborted() || (end != Hybrid::End::kStalled)) return true;
+    if (blurs_) break;
+  }
+  if (ahead && (blurs_ || miss_ < kSearch.blurred)) {
+    const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
+    if (problem_.Aborted() || end != Hybrid::End::kStalled) return true;
+  }
+  Verdict(group, block, goal, how);
+  return false;
+}
+
+// Whether this pass has the slopes of a block.
+bool March::Has(const Ids& ids, const Sight& sight) const {
+  return std::ranges::all_of(ids, [&](const GroupId& id) {
+    const GroupSight* g = sight.Find(id);
+    return g != nullptr && g->ended && g->column != kNone && g->gradient.size() > 0;
+  });
+}
+
+// Which groups of a block a whole step would move: what it would not leaves the block.
+std::vector<bool> March::Moves(const Residuals::Value& value, double goal) {
+  const Eigen::ArrayXd step = Step(value).array().abs();
+  std::vector<bool> moves(static_cast<std::size_t>(step.size()));
+  const double least = kSearch.influence * goal * std::min(1.0, step.maxCoeff());
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    moves[i] = step[static_cast<Eigen::Index>(i)] > least;
+  }
+  return moves;
+}
+
+// Whether a coarse pass does not show what an exact one has shown with the same μ.
+bool March::Blurs(const Sight& coarse, const GroupSight& exact, double goal) {
+  const GroupSight* g = coarse.Find(exact.id);
+  if (g == nullptr || !g->ended || g->weak) return true;
+  return !(std::abs(g->Miss()) > goal && std::abs(g->Miss() / exact.Miss() - 1) < kSearch.alike);
+}
+
+Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
+                              double unseen, const GroupSight* shown) {
+  const bool ahead = precision == Precision::kAhead;
+  coarse_ = ahead;
+  next_.reset();
+  steps_ = 0;
+  Block block(problem_, log_, ids, ahead, kSearch.ahead_miss);
+  const Eigen::VectorXd before = block.Mu();
+  std::vector<bool> corrected;
+  for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);
+  Residuals::Value value = seen != nullptr ? block.Begin(*seen) : block.Begin();
+  if (seen != nullptr && !seen->exact && !ahead &&
+      value.valid) {  // What is coarse leads to where it is exact.
+    block.Set(block.Moved(before, Step(value)));
+    value = block.Begin();
+  }
+  if (problem_.Aborted()) return Hybrid::End::kAborted;
+  miss_ = value.miss;
+  if (shown != nullptr && Blurs(block.last(), *shown, goal)) {
+    blurs_ = true;
+    return Hybrid::End::kStalled;
+  }
+  if (!value.valid) return Hybrid::End::kStalled;
+  if (ids.size() > 1 && value.miss > goal) {
+    value = block.Keep(Moves(value, goal), value);
+  }
+  Hybrid hybrid(block);
+  Eigen::VectorXd mu = block.Mu();
+  const HybridOptions options{.goal = goal,
+                              .most_steps = problem_.scenario().solver.max_iterations,
+                              .near = ahead || ids.size() <= kSearch.at_once ? 0 : kSearch.near,
+                              .slopes_at_once = ids.size() <= kSearch.at_once,
+                              .most_trials = kSearch.trials,
+                              .creep = kSearch.creep,
+                              .limited = true,
+                              .blind = unseen};
+  const Hybrid::End end = hybrid.Solve(options, std::move(value), &mu);
+  miss_ = hybrid.miss();
+  steps_ = hybrid.steps();
+  if (end != Hybrid::End::kStalled) block.Set(mu);
+  if (end == Hybrid::End::kSolved) {
+    Freeze(ids, block.last());
+    next_ = std::move(block.last());
+  }
+  if (end == Hybrid::End::kStalled) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Unknown& unknown = problem_.groups.At(ids[i]);
+      unknown.mu = before[static_cast<Eigen::Index>(i)];
+      unknown.corrected = corrected[i];
+    }
+  }
+  return end;
+}
+
+// What was guessed of groups that overlap a solved block stays as it is: to guess anew undoes the
+// solution.
+void March::Freeze(const Ids& ids, const Sight& sight) {
+  double end = 0;
+  for (const GroupId& id : ids) {
+    if (const GroupSight* g = sight.Find(id)) end = std::max(end, g->end_time);
+  }
+  for (auto& [id, unknown] : problem_.groups.known()) unknown.kept |= unknown.start_time < end;
+  guess_from_ = end;
+}
+
+// The block of a group stalls: what the group alone comes to, with all others held, decides.
+void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how) {
+  const Sight sight = problem_.Evaluate(ids, false, kNever);
+  if (problem_.Aborted()) return;
+  const GroupSight* found = sight.Find(seen.id);
+  const GroupSight group = found != nullptr && found->ended ? *found : seen;
+  const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
+  const Root root = bisection_.Solve(group, !grows, goal);
+  if (problem_.Aborted()) return;
+  if (root == Root::kFound && tries_[group.id]++ < kSearch.tries) {
+    SolveBlock(ids, nullptr, goal, how);
+  } else {
+    Grow(group, root, sight);
+  }
+}
+
+// A group that has no root may have one when what overlaps it is no mere guess any more: it then
+// waits until that is solved, once. Not where it may grow, for what is solved around a group that
+// is too short is lost when it grows: 1.8 times the steps of AUTO, and 13 of 1,800 runs.
+bool March::Waits(const GroupSight& group, const Sight& sight) {
+  const bool guessed = std::ranges::any_of(sight.groups, [&](const GroupSight& g) {
+    const Unknown& u = problem_.groups.At(g.id);
+    return g.id != group.id && g.sought && !g.weak && !u.corrected && !u.Decided() &&
+           g.start_time < group.end_time && (!g.ended || g.end_time > group.end_time);
+  });
+  if (!guessed || !waited_.insert(group.id).second) return false;
+  problem_.groups.At(group.id).waits = true;
+  coarse_ = true;
+  return true;
+}
+
+// Takes up what waits, for nothing else misses.
+bool March::TakeUp() {
+  bool any = false;
+  for (auto& [id, unknown] : problem_.groups.known()) any |= std::exchange(unknown.waits, false);
+  return any;
+}
+
+// A group that has no root with what is around it grows, or it is said what it is.
+void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
+  coarse_ = true;
+  const bool grown =
+      root == Root::kFound ? growing_.Force({group.id}) : growing_.Answer(group, root);
+  if (problem_.Aborted()) return;
+  if (root != Root::kFound && !grown && Waits(group, sight)) return;
+  tries_.clear(), polished_.clear(), waited_.clear();
+  TakeUp();
+  if (root == Root::kFound || grown) return;
+  const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
+  if (grows && root == Root::kJump) root = bisection_.Solve(group, true);
+  if (root != Root::kFound && root != Root::kAborted) growing_.Decide(group.id, root);
+}
+
+// As many corrections as are allowed did not solve the block: those that miss keep what they have.
+void March::GiveUp(const Ids& ids) {
+  const Sight sight = problem_.Evaluate(ids, false, kNever);
+  for (const GroupId& id : ids) {
+    const GroupSight* g = sight.Find(id);
+    if (g != nullptr && Misses(*g, problem_.groups, problem_.tolerance())) {
+      problem_.groups.At(id).given_up = true;
+    }
+  }
+}
+
+}  // namespace contact

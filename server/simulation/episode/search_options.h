@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+
+namespace contact {
+
+/// What the march is tuned by. "Prototype" is a march in an earlier version of this engine, of
+/// which each value was changed alone: 3,000 random scenarios, steps relative to these values.
+struct SearchOptions {
+  /// Miss |ε_out/ε_in − 1| to which blocks are solved while the march goes ahead. Larger: groups
+  /// that come later are seen with worse μ before them. Prototype: 1e-2 takes 1.2 times the steps,
+  /// 1e-4 as many.
+  double ahead_miss = 1e-3;
+  /// Relative tolerance of the passes that go ahead. Passes as exact as the scenario asks take 1.8
+  /// times the steps; prototype: 2.5 times, where all are.
+  double ahead_tolerance = 1e-6;
+  /// Overlapping groups so few are solved at once, also those that end after the one that misses:
+  /// one block instead of one for each group. Timeline.ABlock….
+  std::size_t at_once = 4;
+  /// Groups of a block at most, the last to end: slopes of a pass are linear in them.
+  std::size_t block = 30;
+  /// In units of the goal: a group that a whole step moves by less leaves its block, and one that
+  /// has moved by less between two polishes is settled. Prototype: 100 times more or less takes as
+  /// many steps.
+  double influence = 0.02;
+  /// Part of what a pass sees that must be final to be recorded: less records often, more lets
+  /// passes become long.
+  double commit = 0.3;
+  /// Spans of a block that a trial may last beyond it, until what has not ended is open.
+  double trial_spans = 8;
+  /// A miss that may be the error of a pass ahead, so that a block which stalls there is solved
+  /// exactly. Always: 1.7 times the steps in the prototype.
+  double blurred = 1e-2;
+  /// Relative difference between the misses that a coarse and an exact pass see, to which they have
+  /// seen the same motion. Zero: all is solved exactly that an exact pass has seen to miss.
+  double alike = 0.5;
+  /// A miss that may be the error of the first look at an exact guess: it sees an isolated
+  /// collision miss by 1.02e-6 at ε = 0.9. Less: 89 of the 133 steps of such a collision are for
+  /// nothing.
+  double noise = 3e-6;
+  /// Part of the tolerance that a last step without a look may leave; the recording tells. Without,
+  /// a triple chain takes 1.2 times as long in the prototype.
+  double unseen = 0.1;
+  /// Below this miss Broyden's update takes the place of slopes of blocks of more than `at_once`.
+  double near = 1e-3;
+  /// Trials of a step: 1.5 % of one that does not help, the fifth, is no descent worth its passes.
+  int trials = 5;
+  /// Two steps in a row of less than this part lead to a jump, not to a root.
+  double creep = 0.2;
+  /// Roots of a group alone that lead to no solution of its block, until it grows.
+  int tries = 2;
+  /// How often a group that was found unfinished, and ends after all, is sought again.
+  int reopened = 3;
+  /// Rounds in an episode: a guard against a march that goes round.
+  int rounds = 3000;
+};
+
+inline constexpr SearchOptions kSearch;
+
+}  // namespace contact
