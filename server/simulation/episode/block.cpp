@@ -9,9 +9,9 @@ namespace contact {
 namespace {
 
 // Relative change of a μ in one step: further off the slopes tell nothing.
-constexpr double kLeast = -0.8, kMost = 4;
+constexpr double kLeastChange = -0.8, kMostChange = 4;
 // Residual of a group that does not end with a trial μ: worse than any that does.
-constexpr double kOpen = 10;
+constexpr double kOpenResidual = 10;
 
 Eigen::Index Index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -75,7 +75,7 @@ Residuals::Value Block::Of(const Sight& sight, bool slopes) const {
     const GroupSight* g = sight.Find(ids_[static_cast<std::size_t>(i)]);
     if (g == nullptr) continue;  // It came to nothing.
     const bool known = g->ended && std::isfinite(g->residual);
-    const double r = known ? g->residual : kOpen;
+    const double r = known ? g->residual : kOpenResidual;
     value.merit += r * r;
     if (!g->weak) value.miss = std::max(value.miss, known ? std::abs(g->Miss()) : kNever);
     if (!known || !(g->mu > 0)) continue;
@@ -103,7 +103,7 @@ Eigen::VectorXd Block::Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& st
     double& mu = there[Index(i)];
     const GroupSight* g = taken_.Find(ids_[i]);
     const double most = g != nullptr && g->ended ? std::max(mu, problem_.MostMu(*g)) : kNever;
-    mu = std::min(mu * (1 + std::clamp(step[Index(i)], kLeast, kMost)), most);
+    mu = std::min(mu * (1 + std::clamp(step[Index(i)], kLeastChange, kMostChange)), most);
   }
   return there;
 }

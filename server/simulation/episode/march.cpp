@@ -357,8 +357,8 @@ void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
       root == Root::kFound ? growing_.Force({group.id}) : growing_.Answer(group, root);
   if (problem_.Aborted()) return;
   if (root != Root::kFound && !grown && Waits(group, sight)) return;
-  tries_.clear(), polished_.clear(), waited_.clear();
-  TakeUp();
+  tries_.clear(), polished_.clear();
+  std::erase_if(waited_, [&](const GroupId& id) { return !problem_.groups.At(id).waits; });
   if (root == Root::kFound || grown) return;
   const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
   if (grows && root == Root::kJump) root = bisection_.Solve(group, true);

@@ -10,7 +10,7 @@
 namespace contact {
 
 /// Later than any end [s]; more than any miss.
-inline constexpr double kForever = kForever;
+inline constexpr double kForever = 1e300;
 
 /// One pass through the motion with the μ of the groups, and what it shows of them.
 class Pass final : public CycleHost {

@@ -29,7 +29,7 @@ const GroupSight* Timeline::FirstMiss(double least) const {
 // Whether the search may move the μ of a group.
 bool Timeline::MayChange(const GroupSight& g) const {
   const Unknown* unknown = groups_.Find(g.id);
-  return g.sought && g.ended && !g.weak && unknown != nullptr && !unknown->Decided() &&
+  return g.sought && g.ended && !g.weak && unknown != nullptr && !unknown->Decided() && !unknown->waits &&
          g.start_time < end_;
 }
 
