@@ -309,7 +309,7 @@ void March::Freeze(const Ids& ids, const Sight& sight) {
     if (const GroupSight* g = sight.Find(id)) end = std::max(end, g->end_time);
   }
   for (auto& [id, unknown] : problem_.groups.known()) unknown.kept |= unknown.start_time < end;
-  guess_from_ = end;
+  guess_from_ = 0;
 }
 
 // The block of a group stalls: what the group alone comes to, with all others held, decides.

@@ -16,7 +16,7 @@ struct SearchOptions {
   double ahead_tolerance = 1e-6;
   /// Overlapping groups so few are solved at once, also those that end after the one that misses:
   /// one block instead of one for each group. Timeline.ABlock….
-  std::size_t at_once = 4;
+  std::size_t at_once = 8;
   /// Groups of a block at most, the last to end: slopes of a pass are linear in them.
   std::size_t block = 30;
   /// In units of the goal: a group that a whole step moves by less leaves its block, and one that
