@@ -31,17 +31,18 @@ Timeline March::Read(const Sight& sight) const {
           [this](const GroupId& id) { return IsSettled(id); }};
 }
 
-Sight March::Look() {
-  return problem_.March({}, {.slopes = coarse_,
+Sight March::Look(const Ids& since) {
+  return problem_.March({}, {.since = since,
+                             .slopes = coarse_,
                              .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
                              .miss = kSearch.ahead_miss,
                              .guess_from = guess_from_});
 }
 
-// What a pass tells of each group; whether one has become negligible or is no more, for that
-// changes its μ.
-bool March::Note(const Sight& sight) {
-  bool changed = false;
+// What a pass tells of each group. Returns those that have become negligible or are no more, for
+// that changes their μ.
+March::Ids March::Note(const Sight& sight) {
+  Ids changed;
   for (const GroupSight& g : sight.groups) {
     Unknown& u = problem_.groups.At(g.id);
     u.cut = !g.ended || g.end_time > problem_.end();
@@ -50,7 +51,7 @@ bool March::Note(const Sight& sight) {
     // A coarse pass may find what is negligible, but not that it is no more.
     if (sight.exact || (g.weak && u.flips == 0)) {
       const bool flips = g.sought && u.weak != g.weak;
-      changed |= flips;
+      if (flips) changed.push_back(g.id);
       u.flips += flips;
       u.weak = g.weak;
     }
@@ -74,12 +75,14 @@ March::End March::Solve(bool rejected) {
   polished_.clear(), tries_.clear(), waited_.clear();
   TakeUp();
   growing_.Begin();
+  Ids changed;
   for (int round = 0; round < kSearch.rounds; ++round) {
-    const Sight sight = next_ ? *std::exchange(next_, {}) : Look();
+    const Sight sight = next_ ? *std::exchange(next_, {}) : Look(changed);
     if (problem_.Aborted() || sight.pause == Motion::Pause::kNumeric) {
       return {.pause = sight.pause};
     }
-    if (Note(sight) && round < kSearch.rounds / 2) continue;
+    changed = Note(sight);
+    if (!changed.empty() && round < kSearch.rounds / 2) continue;
     const Timeline timeline = Read(sight);
     const GroupSight* miss = timeline.FirstMiss(kSearch.ahead_miss);
     if (miss == nullptr && TakeUp()) continue;

@@ -36,8 +36,8 @@ class March {
   using Ids = std::vector<GroupId>;
   enum class Precision { kAhead, kExact };
 
-  Sight Look();
-  bool Note(const Sight& sight);
+  Sight Look(const Ids& since = {});
+  Ids Note(const Sight& sight);
   bool IsSettled(const GroupId& id) const;
   Timeline Read(const Sight& sight) const;
   bool IsEnough(const Sight& sight, const GroupSight* miss) const;

@@ -80,8 +80,9 @@ Pass::Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups&
 Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& stop,
                  std::int64_t step_limit) {
   plan_ = plan;
-  sight_ = {};
   cycles_ = late_cycles_ = running_ = columns_ = 0;
+  sight_ = {};
+  if (plan.before != nullptr) Continue(*plan.before);
   Stir(start.time);
   enough_ = false;
   membership_.Begin(plan.guess_from);
@@ -94,6 +95,17 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
   sight_.time = motion_.time();
   sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
   return std::move(sight_);
+}
+
+// The pass sees on from where another one has ended, without slopes by the μ of what had begun.
+void Pass::Continue(const Sight& before) {
+  sight_.groups = before.groups;
+  sight_.quiet = before.quiet;
+  for (GroupSight& g : sight_.groups) {
+    g.column = kNone;
+    g.gradient = {};
+    if (!g.ended && Matters(groups_.At(g.id))) ++running_;
+  }
 }
 
 bool Pass::IsOpen() const {

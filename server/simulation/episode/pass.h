@@ -22,6 +22,7 @@ class Pass final : public CycleHost {
     double far = kNever;         ///< So far beyond that end it follows a few cycles only [s].
     double until = kForever;      ///< It goes no further [s].
     int most_cycles = 1;         ///< It ends when so many have begun.
+    const Sight* before = nullptr;  ///< What led to its start, if that is not the episode's.
     bool first_quiet = false;    ///< It ends at the first instant at which no cycle runs.
     double guess_from = kNever;  ///< What begins no earlier is guessed anew, if it was [s].
     bool patient = false;        ///< It goes on where nothing turns.
@@ -55,6 +56,7 @@ class Pass final : public CycleHost {
   bool OnStep() override;
 
  private:
+  void Continue(const Sight& before);
   bool Counts(const Cycle& cycle) const;
   bool Matters(const Unknown& unknown) const;
   GroupSight* Seen(const ContactState& state);

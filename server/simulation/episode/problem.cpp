@@ -56,9 +56,11 @@ Sight Problem::Look(const State& from, Pass::Plan plan) {
   ++passes_;
   plan.end = end_;
   plan.far = far_;
+  plan.before = &from == &near_ ? &led_ : nullptr;
   Sight sight = pass_.Look(from, plan, stop_, step_limit_);
   for (int i = 1; sight.disturbed; ++i) {  // From the start: the state kept may have been at rest.
     near_ = {};
+    plan.before = nullptr;
     plan.retries = i < kMostRetries;
     sight = pass_.Look(*start_, plan, stop_, step_limit_);
   }
@@ -83,11 +85,22 @@ Sight Problem::SeeStretch(int most_cycles) {
   return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess_from = kAlways});
 }
 
+// Whether the μ of a group that runs is a mere guess.
+bool Problem::IsGuessed(const Sight& sight) const {
+  return std::ranges::any_of(sight.groups, [&](const GroupSight& g) {
+    const Unknown* u = groups.Find(g.id);
+    return g.sought && !g.ended && u != nullptr && !u->corrected && !u->Decided() && !u->weak;
+  });
+}
+
 Sight Problem::March(const std::vector<GroupId>& block, const Marching& how) {
   trusting_ = true;
-  begun_.clear();
   const double tolerance = Tolerance(how.tolerance);
-  Sight sight = Look(*start_, {.tolerance = tolerance,
+  const std::vector<GroupId>& since = how.since.empty() ? block : how.since;
+  const State* from = since.empty() ? start_ : &Before(since);
+  if (from == &near_ && IsGuessed(led_)) from = start_;  // It may be guessed better by now.
+  if (aborted_) return {};
+  Sight sight = Look(*from, {.tolerance = tolerance,
                                .most_cycles = kMostCyclesOfATrial,
                                .guess_from = how.guess_from,
                                .sensitive = how.slopes,
@@ -157,6 +170,7 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
     return kept();
   }
   near_ = std::move(reached);
+  led_ = sight;
   held_ = HeldIn(near_);
   return near_;
 }

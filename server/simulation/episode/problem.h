@@ -27,6 +27,7 @@ class Problem {
   Sight SeeStretch(int most_cycles);
   /// How a pass of the march is made.
   struct Marching {
+    std::vector<GroupId> since = {};  ///< Nothing before these has changed. Empty: the block.
     bool slopes = false;  ///< With slopes by the μ of the block, or if `wide` of all groups.
     bool wide = false;
     double until = 1e300;        ///< What of the block has not ended then is open [s].
@@ -70,6 +71,7 @@ class Problem {
   using Held = std::tuple<GroupId, double, double, bool>;
   Sight Look(const State& from, Pass::Plan plan);
   const State& Before(const std::vector<GroupId>& front);
+  bool IsGuessed(const Sight& sight) const;
   std::vector<Held> HeldIn(const State& state) const;
   double Tolerance(double wanted) const;
 
@@ -79,7 +81,8 @@ class Problem {
   const bool swings_;  // Whether a load or a drive is a sine.
   const State* start_ = nullptr;
   State near_;              // Shortly before the last front, if
-  std::vector<Held> held_;  // all that begins before is still this.
+  std::vector<Held> held_;  // all that begins before is still this,
+  Sight led_;               // and was seen so.
   bool trusting_ = false;
   std::map<GroupId, double> begun_;  // Earlier starts [s] of groups than other passes have seen.
   double seen_ = 0;                  // How far the last scan went [s].
