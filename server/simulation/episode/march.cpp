@@ -353,19 +353,20 @@ bool March::TakeUp() {
   return any;
 }
 
-// A group that has no root with what is around it grows, or it is said what it is.
+// A group that has no root with what is around it grows, waits, or is said what it is; so does one
+// of which the roots led to no solution of its block.
 void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
   coarse_ = true;
-  const bool grown =
-      root == Root::kFound ? growing_.Force({group.id}) : growing_.Answer(group, root);
-  if (problem_.Aborted()) return;
-  if (root != Root::kFound && !grown && Waits(group, sight)) return;
+  if (root != Root::kFound && !growing_.Answer(group, root)) {
+    if (problem_.Aborted() || Waits(group, sight)) return;
+    const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
+    if (grows && root == Root::kJump) root = bisection_.Solve(group, true);
+    if (problem_.Aborted() || (root == Root::kFound && tries_[group.id]++ < kSearch.tries)) return;
+    if (root != Root::kFound) growing_.Decide(group.id, root);
+  }
+  if (root == Root::kFound) growing_.Force({group.id});
   tries_.clear(), polished_.clear();
   std::erase_if(waited_, [&](const GroupId& id) { return !problem_.groups.At(id).waits; });
-  if (root == Root::kFound || grown) return;
-  const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
-  if (grows && root == Root::kJump) root = bisection_.Solve(group, true);
-  if (root != Root::kFound && root != Root::kAborted) growing_.Decide(group.id, root);
 }
 
 // As many corrections as are allowed did not solve the block: those that miss keep what they have.
