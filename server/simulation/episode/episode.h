@@ -5,18 +5,15 @@
 #include "simulation/episode/bisection.h"
 #include "simulation/episode/growing.h"
 #include "simulation/episode/march.h"
-#include "simulation/episode/newton.h"
 #include "simulation/episode/paper_search.h"
 #include "simulation/episode/recorder.h"
-#include "simulation/episode/window.h"
 
 namespace contact {
 
 struct RunState;
 
-/// Finds the μ of the groups of an episode, in the order of time: the earliest that miss with all
-/// that overlap them are solved by Newton's method; where it stalls, by bisection one by one; and
-/// where that finds no root, groups grow. README.md, "Finding μ".
+/// Finds the μ of the groups of an episode by a march, or as the paper does, and judges by the
+/// recording whether it is solved. README.md, "Finding μ".
 class EpisodeSolver {
  public:
   EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer);
@@ -50,40 +47,21 @@ class EpisodeSolver {
   const IterationLog& log() const { return log_; }
 
  private:
-  Motion::Pause Search();
-  Motion::Pause MarchOn();
-  Sight Scan(bool coarse);
-  Motion::Pause Record(const Sight& sight, double until);
-  Motion::Pause Tentatively();
-  Found SolveFront(const Sight& sight, const std::vector<GroupId>& front);
-  bool Bisect(const Sight& sight, const std::vector<GroupId>& front);
-  bool BisectSuspect(const Sight& sight, const std::vector<GroupId>& front);
-  bool Answer(const GroupSight& group, Root root);
-  bool Grows() const;
-  void Freeze(const Sight& sight, const std::vector<GroupId>& front);
-  void GiveUp(const Sight& sight, const std::vector<GroupId>& front);
+  void Accept(const Sight& sight, double until);
 
   const Scenario& scenario_;
   Problem problem_;
   IterationLog log_;
-  Newton newton_;
   Bisection bisection_;
   Growing growing_;
   March march_;
   PaperSearch paper_;
-  Window window_;
   Recorder recorder_;
   int episode_ = 0;
   double solved_until_ = 0;  // All that begins before has its answer.
   double record_until_ = 0;
   bool tentative_ = false;
-  bool rejected_ = false;        // A recording has shown that the episode is not solved.
-  std::vector<GroupId> solved_;  // The last front, or part of one, that was solved,
-  int unsolved_ = 0;             // and how often in a row it missed again.
-  GroupId last_;                 // The first of the last front that was not, and
-  int sweeps_ = 0;               // how often its groups were bisected one by one.
-  int stalls_ = 0;               // Of any front, since something else has changed.
-  bool guessing_ = true;         // The μ of neighbours may have changed what is to be guessed.
+  bool rejected_ = false;  // A recording has shown that the episode is not solved.
 };
 
 }  // namespace contact

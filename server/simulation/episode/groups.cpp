@@ -53,6 +53,13 @@ const Unknown* Groups::Find(const GroupId& id) const {
   return found == known_.end() ? nullptr : &found->second;
 }
 
+bool Groups::Misses(const GroupSight& group, double tolerance) const {
+  if (!group.sought || !group.ended || group.weak) return false;
+  const Unknown* unknown = Find(group.id);
+  if (unknown != nullptr && (unknown->Decided() || unknown->waits)) return false;
+  return !(std::abs(group.Miss()) <= tolerance);
+}
+
 void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) {
   Unknown& grown = At(first.id);
   // The turn of the last cycle is far from both troughs that may end it: the group's end is stable.
@@ -63,7 +70,6 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
   grown.missing = first.Missing();
   grown.corrected = true;
   grown.weak = grown.lowered = false;
-  grown.settled_mu = kNaN;
   grown.too_much = grown.too_little = {};
   known_.erase(next.id);
   std::erase_if(rest_ends_, [&](const auto& entry) {  // Their places change.

@@ -21,6 +21,10 @@ class Groups {
   Unknown* Find(const GroupId& id);
   const Unknown* Find(const GroupId& id) const;
 
+  /// Whether a group, as a pass has seen it, misses its restitution by more than this, relative, so
+  /// that the search is to find its μ.
+  bool Misses(const GroupSight& group, double tolerance) const;
+
   /// Joins a group with the next of its encounter, as a pass has seen the two. It begins anew from
   /// the first guess of its first cycle.
   void Merge(const GroupSight& first, const GroupSight& next, Growth why);

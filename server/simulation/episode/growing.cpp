@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/episode/front.h"
-
 namespace contact {
 namespace {
 
@@ -31,9 +29,6 @@ constexpr double kLonger = 1.01;
 // A change of what is around a group by less than this gives it no root that it had not. Scanned
 // again for every change, 2 more of 40 stacks of the machines spend a million steps.
 constexpr double kSame = 1e-3;
-// A miss that rather is the cause of what others miss by than their effect.
-constexpr double kMuch = 1e-2;
-
 GroupId Neighbour(GroupId id, int places) {
   id.place += places;
   return id;
@@ -142,21 +137,12 @@ void Growing::Decide(const GroupId& id, Root root) const {
   if (root == Root::kJump && alone) unknown.mu = unknown.too_much.mu;
 }
 
-bool Growing::Force(const std::vector<GroupId>& front) {
-  const Sight sight = problem_.Evaluate(front, false, kForever);
-  std::vector<GroupId> missing;  // That of much first, in order of time.
-  for (const double least : {kMuch, problem_.tolerance()}) {
-    for (const GroupId& id : front) {
-      const GroupSight* g = sight.Find(id);
-      if (g != nullptr && Misses(*g, problem_.groups, least)) missing.push_back(id);
-    }
-  }
-  for (const GroupId& id : missing) {
-    if (problem_.Aborted() || Grow(id, Growth::kNoProgress)) return true;
-  }
-  if (missing.empty()) return false;
-  problem_.groups.At(missing.front()).given_up = true;
-  return true;
+void Growing::Force(const GroupId& id) {
+  const Sight sight = problem_.Evaluate({id}, false, kForever);
+  const GroupSight* g = sight.Find(id);
+  const bool misses = g != nullptr && problem_.groups.Misses(*g, problem_.tolerance());
+  if (problem_.Aborted() || !misses || Grow(id, Growth::kNoProgress)) return;
+  problem_.groups.At(id).given_up = true;
 }
 
 // Whether with the μ of one side still too much, by the sign, or too little comes back.

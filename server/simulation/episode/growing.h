@@ -23,8 +23,8 @@ class Growing {
   bool Answer(const GroupSight& group, Root root);
   /// Says of a group that cannot grow what it is.
   void Decide(const GroupId& id, Root root) const;
-  /// Grows the earliest group of a front that misses, for lack of progress; false: none can.
-  bool Force(const std::vector<GroupId>& front);
+  /// Grows a group that misses, for lack of progress; where it cannot grow it is given up.
+  void Force(const GroupId& id);
   /// Takes up again a group that begins `before` [s] and was found to have no solution, where that
   /// does not hold with what is now around it. False: there is none.
   bool Reopen(const Sight& scan, double before = kForever);

@@ -5,14 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/episode/front.h"
 #include "simulation/episode/search_options.h"
 
 namespace contact {
 namespace {
-
-// Before what begins next, relative: round-off must not let it begin.
-constexpr double kAtOnce = 1e-9;
 
 Eigen::VectorXd Step(const Residuals::Value& value) {
   const Eigen::VectorXd step = -value.slopes.partialPivLu().solve(value.residuals);
@@ -364,7 +360,7 @@ void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
     if (problem_.Aborted() || (root == Root::kFound && tries_[group.id]++ < kSearch.tries)) return;
     if (root != Root::kFound) growing_.Decide(group.id, root);
   }
-  if (root == Root::kFound) growing_.Force({group.id});
+  if (root == Root::kFound) growing_.Force(group.id);
   tries_.clear(), polished_.clear();
   std::erase_if(waited_, [&](const GroupId& id) { return !problem_.groups.At(id).waits; });
 }
@@ -374,7 +370,7 @@ void March::GiveUp(const Ids& ids) {
   const Sight sight = problem_.Evaluate(ids, false, kNever);
   for (const GroupId& id : ids) {
     const GroupSight* g = sight.Find(id);
-    if (g != nullptr && Misses(*g, problem_.groups, problem_.tolerance())) {
+    if (g != nullptr && problem_.groups.Misses(*g, problem_.tolerance())) {
       problem_.groups.At(id).given_up = true;
     }
   }

@@ -12,6 +12,9 @@
 
 namespace contact {
 
+/// Instants so near, relative to the episode, are one: round-off parts them.
+inline constexpr double kAtOnce = 1e-9;
+
 /// The search as a march in the order in which groups end: what a group misses depends only on
 /// groups that begin before it ends, so the first that misses is solved with the solved ones that
 /// overlap it, and the next pass goes on from there. README.md, "Finding μ".

@@ -46,13 +46,13 @@ void PaperSearch::Correct(Sight& sight, int corrections) {
   }
 }
 
-Found PaperSearch::Solve(int most_cycles, int most_corrections) {
+void PaperSearch::Solve(int most_cycles, int most_corrections) {
   brackets_.clear();
   double best = std::numeric_limits<double>::infinity();
   Groups best_groups;
   for (int corrections = 0;; ++corrections) {
     Sight sight = problem_.SeeStretch(most_cycles);
-    if (problem_.Aborted()) return Found::kAborted;
+    if (problem_.Aborted()) return;
     double merit = 0;
     for (const GroupSight& g : sight.groups) {
       if (!Converged(g)) merit = std::max(merit, std::abs(g.Miss()));
@@ -67,7 +67,7 @@ Found PaperSearch::Solve(int most_cycles, int most_corrections) {
         if (Converged(g)) unknown.status = Cycle::Status::kConverged;
       }
       log_.Accept(sight);
-      return merit == 0 ? Found::kSolved : Found::kLimit;
+      return;
     }
     Correct(sight, corrections + 1);
     log_.Correct(sight);

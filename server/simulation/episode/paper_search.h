@@ -3,7 +3,6 @@
 #include <map>
 
 #include "simulation/episode/iteration_log.h"
-#include "simulation/episode/newton.h"
 #include "simulation/episode/problem.h"
 
 namespace contact {
@@ -15,7 +14,7 @@ class PaperSearch {
   PaperSearch(Problem& problem, IterationLog& log) : problem_(problem), log_(log) {}
 
   /// Solves the stretch from the problem's start to the first instant without a cycle.
-  Found Solve(int most_cycles, int most_corrections);
+  void Solve(int most_cycles, int most_corrections);
 
  private:
   struct Bracket {

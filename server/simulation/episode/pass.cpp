@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/episode/front.h"
 #include "simulation/episode/search_options.h"
+#include "simulation/episode/timeline.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -91,7 +91,7 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
     sight_.pause = motion_.Advance(plan.until, *this, nullptr, stop, step_limit);
     if (sight_.pause == Motion::Pause::kQuiet) sight_.quiet.push_back(motion_.time());
   } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !IsOpen() && !enough_ &&
-           (motion_.time() < plan.end || running_ > 0 || !plan.front.empty()));
+           (motion_.time() < plan.end || running_ > 0 || !plan.block.empty()));
   sight_.time = motion_.time();
   sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
   return std::move(sight_);
@@ -131,8 +131,8 @@ GroupSight* Pass::Seen(const ContactState& state) {
 }
 
 bool Pass::WantsColumn(const GroupId& id) const {
-  return plan_.sensitive && (plan_.wide || plan_.front.empty() ||
-                             std::ranges::find(plan_.front, id) != plan_.front.end());
+  return plan_.sensitive && (plan_.wide || plan_.block.empty() ||
+                             std::ranges::find(plan_.block, id) != plan_.block.end());
 }
 
 CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, double external_force) {
@@ -243,8 +243,8 @@ void Pass::Measure(GroupSight& group) const {
                    (group.gradient_restitution + group.squared * group.gradient_compression);
 }
 
-bool Pass::FrontHasEnded() const {
-  return std::ranges::all_of(plan_.front, [&](const GroupId& id) {
+bool Pass::BlockHasEnded() const {
+  return std::ranges::all_of(plan_.block, [&](const GroupId& id) {
     const GroupSight* seen = sight_.Find(id);
     return seen != nullptr && seen->ended;
   });
@@ -252,24 +252,20 @@ bool Pass::FrontHasEnded() const {
 
 // Whether the next group that misses has ended, with all that overlap it where these are few.
 bool Pass::ShowsMiss() const {
-  const auto misses = [&](const GroupSight& g) {
-    return g.start_time < plan_.end && Misses(g, groups_, plan_.to_miss);
+  const auto of_block = [&](const GroupSight& g) {
+    return g.start_time < plan_.end && groups_.Misses(g, plan_.to_miss) &&
+           std::ranges::find(plan_.block, g.id) != plan_.block.end();
   };
-  if (std::ranges::none_of(sight_.groups, misses)) return false;
-  const auto of_front = [&](const GroupSight& g) {
-    return misses(g) && std::ranges::find(plan_.front, g.id) != plan_.front.end();
-  };
-  if (std::ranges::any_of(sight_.groups, of_front)) return true;
-  return MissIsComplete(sight_, groups_, plan_.to_miss, plan_.end, kSearch.at_once);
+  if (std::ranges::any_of(sight_.groups, of_block)) return true;
+  const Timeline timeline(sight_, groups_, plan_.end, [](const GroupId&) { return false; });
+  return timeline.ShowsMiss(plan_.to_miss, kSearch.at_once);
 }
 
 bool Pass::Enough() const {
-  if (!plan_.front.empty() && !FrontHasEnded()) return false;
-  if (!plan_.front.empty() && plan_.to_miss == 0) return true;
+  const bool seen = BlockHasEnded();
+  if (!plan_.block.empty() && (!seen || plan_.to_miss == 0)) return seen;
   if (running_ == 0 && motion_.time() >= plan_.end) return true;
-  if (plan_.first_quiet) return false;
-  if (plan_.to_miss > 0) return ShowsMiss();
-  return FrontIsComplete(sight_, groups_, scenario_.solver.restitution_tolerance, plan_.end);
+  return plan_.to_miss > 0 && ShowsMiss();
 }
 
 // A cycle begins or ends.
@@ -308,7 +304,7 @@ bool Pass::Creeps() const {
   };
   see(motion_.equations().loads(), &Load::slope);
   see(motion_.equations().drives(), &Drive::jerk);
-  const double patience = plan_.front.empty() ? kPatienceOfAScan : kPatience;
+  const double patience = plan_.block.empty() ? kPatienceOfAScan : kPatience;
   return motion_.time() - since > patience * SlowestTurn() + kPeriods * longest_period_;
 }
 
@@ -320,7 +316,7 @@ bool Pass::SeesFar() const {
 
 bool Pass::OnStep() {
   observer_.OnStep();
-  enough_ = enough_ || SeesFar() || (motion_.time() > plan_.front_until && !FrontHasEnded());
+  enough_ = enough_ || SeesFar() || (motion_.time() > plan_.block_until && !BlockHasEnded());
   if (++idle_steps_ % kStride != 0 || plan_.patient) return !enough_;
   const bool stuck = scenario_.solver.fixed_step == 0 && idle_steps_ > kStuck;
   enough_ = enough_ || stuck || Creeps();

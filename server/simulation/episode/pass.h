@@ -17,29 +17,27 @@ class Pass final : public CycleHost {
  public:
   /// What a pass is to see.
   struct Plan {
-    double tolerance = 0;        ///< Relative, of the integration; 0: the scenario's.
-    double end = 0;              ///< Of the run: what begins later is no matter of the search.
-    double far = kNever;         ///< So far beyond that end it follows a few cycles only [s].
-    double until = kForever;      ///< It goes no further [s].
-    int most_cycles = 1;         ///< It ends when so many have begun.
-    const Sight* before = nullptr;  ///< What led to its start, if that is not the episode's.
-    bool first_quiet = false;    ///< It ends at the first instant at which no cycle runs.
-    double guess_from = kNever;  ///< What begins no earlier is guessed anew, if it was [s].
-    bool patient = false;        ///< It goes on where nothing turns.
-    bool retries = true;         ///< It may end because a rest should have ended earlier.
-    bool sensitive = false;      ///< It differentiates by the μ of the front,
-    bool wide = false;           ///< or of all groups.
-    double to_miss = 0;          ///< It goes on to a group that misses by more; 0: to the end
-                                 ///< of the front.
-    double front_until = kForever;///< So far for a front that does not end [s].
-    std::vector<GroupId> front =
-        {};  ///< Groups to be seen to their ends. Empty: what a scan needs.
+    double tolerance = 0;             ///< Relative, of the integration; 0: the scenario's.
+    double end = 0;                   ///< Of the run: what begins later is no matter of the search.
+    double far = kNever;              ///< So far beyond that end it follows a few cycles only [s].
+    double until = kForever;          ///< It goes no further [s].
+    int most_cycles = 1;              ///< It ends when so many have begun.
+    const Sight* before = nullptr;    ///< What led to its start, if that is not the episode's.
+    bool first_quiet = false;         ///< It ends at the first instant at which no cycle runs.
+    double guess_from = kNever;       ///< What begins no earlier is guessed anew, if it was [s].
+    bool patient = false;             ///< It goes on where nothing turns.
+    bool retries = true;              ///< It may end because a rest should have ended earlier.
+    bool sensitive = false;           ///< It differentiates by the μ of the block,
+    bool wide = false;                ///< or of all groups.
+    double to_miss = 0;               ///< It goes on to a group that misses by more; 0: it ends
+                                      ///< where all of the block has ended.
+    double block_until = kForever;    ///< So far for a block that does not end [s].
+    std::vector<GroupId> block = {};  ///< Groups to be seen to their ends.
   };
 
   Pass(const Scenario& scenario, Motion& motion, Observer& observer, Groups& groups);
 
-  /// Passes from `start`. A scan, without a front, ends when the earliest groups that miss have
-  /// ended with all that overlap them, at the latest when the contacts are open.
+  /// Passes from `start`, at the latest until the contacts are open.
   Sight Look(const State& start, const Plan& plan, const std::stop_token& stop,
              std::int64_t step_limit);
 
@@ -67,7 +65,7 @@ class Pass final : public CycleHost {
   bool Creeps() const;
   bool SeesFar() const;
   bool Enough() const;
-  bool FrontHasEnded() const;
+  bool BlockHasEnded() const;
   bool ShowsMiss() const;
 
   const Scenario& scenario_;

@@ -18,7 +18,7 @@ constexpr double kBeyond = 3, kOwn = 5;
 // five times the steps), and what a sine drives never stops.
 constexpr double kFelt = 3000, kFeltWhenPressed = 3e4, kFeltWhenDriven = 1e5, kFeltAtFirst = 1e6;
 // Part of a scan that passes have to be spared for a state to be kept, and how long before the
-// front it is taken.
+// block it is taken.
 constexpr double kWorth = 0.1, kShortly = 1e-3;
 // So often a pass is made again because a rest in it should have ended earlier.
 constexpr int kMostRetries = 30;
@@ -50,6 +50,7 @@ void Problem::Begin(const State& start, double end, const std::stop_token& stop,
   step_limit_ = step_limit;
   aborted_ = false;
   near_ = {};
+  begun_.clear();
 }
 
 Sight Problem::Look(const State& from, Pass::Plan plan) {
@@ -69,18 +70,6 @@ Sight Problem::Look(const State& from, Pass::Plan plan) {
   return sight;
 }
 
-Sight Problem::Scan(int most_cycles, bool guess, bool coarse) {
-  trusting_ = true;
-  begun_.clear();
-  Sight sight = Look(*start_, {.tolerance = coarse ? Tolerance(kCoarsest) : 0,
-                               .most_cycles = most_cycles,
-                               .guess_from = guess ? kAlways : kNever,
-                               .sensitive = coarse});
-  sight.exact = !coarse;
-  seen_ = sight.time;
-  return sight;
-}
-
 Sight Problem::SeeStretch(int most_cycles) {
   return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess_from = kAlways});
 }
@@ -94,20 +83,19 @@ bool Problem::IsGuessed(const Sight& sight) const {
 }
 
 Sight Problem::March(const std::vector<GroupId>& block, const Marching& how) {
-  trusting_ = true;
   const double tolerance = Tolerance(how.tolerance);
   const std::vector<GroupId>& since = how.since.empty() ? block : how.since;
   const State* from = since.empty() ? start_ : &Before(since);
   if (from == &near_ && IsGuessed(led_)) from = start_;  // It may be guessed better by now.
   if (aborted_) return {};
   Sight sight = Look(*from, {.tolerance = tolerance,
-                               .most_cycles = kMostCyclesOfATrial,
-                               .guess_from = how.guess_from,
-                               .sensitive = how.slopes,
-                               .wide = how.wide,
-                               .to_miss = how.miss,
-                               .front_until = how.until,
-                               .front = block});
+                             .most_cycles = kMostCyclesOfATrial,
+                             .guess_from = how.guess_from,
+                             .sensitive = how.slopes,
+                             .wide = how.wide,
+                             .to_miss = how.miss,
+                             .block_until = how.until,
+                             .block = block});
   sight.exact = tolerance == 0 || tolerance <= scenario_.solver.relative_tolerance;
   seen_ = sight.time;
   return sight;
@@ -140,18 +128,17 @@ std::vector<Problem::Held> Problem::HeldIn(const State& state) const {
   return held;
 }
 
-// What happens later changes nothing earlier: a pass that is to show a front may begin shortly
+// What happens later changes nothing earlier: a pass that is to show a block may begin shortly
 // before it, at a state that is kept for the passes that follow.
-const State& Problem::Before(const std::vector<GroupId>& front) {
-  if (!trusting_) return *start_;
+const State& Problem::Before(const std::vector<GroupId>& block) {
   const auto has_begun = [&](const State& state) {
-    return std::ranges::any_of(front, [&](const GroupId& id) { return HasBegun(state, id); });
+    return std::ranges::any_of(block, [&](const GroupId& id) { return HasBegun(state, id); });
   };
   const bool keeps = near_.time > start_->time && !has_begun(near_) && held_ == HeldIn(near_);
   const State& from = keeps ? near_ : *start_;
   const auto kept = [&]() -> const State& { return near_.positions.empty() ? *start_ : from; };
   double begin = kNever;  // By the last pass that saw it: with other μ it may be another.
-  for (const GroupId& id : front) {
+  for (const GroupId& id : block) {
     begin = std::min(begin, groups.At(id).start_time);
     if (const auto known = begun_.find(id); known != begun_.end()) {
       begin = std::min(begin, known->second);
@@ -160,11 +147,11 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
   if (begin - from.time < kWorth * (seen_ - start_->time)) return from;
   const double until = begin - kShortly * (begin - start_->time);
   const Sight sight =
-      Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .front = {front.front()}});
+      Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .block = {block.front()}});
   if (sight.pause != Motion::Pause::kTimeUp) return kept();
   State reached = motion_.Save();
   if (has_begun(reached)) {
-    for (const GroupId& id : front) {
+    for (const GroupId& id : block) {
       if (HasBegun(reached, id)) begun_[id] = groups.At(id).start_time;
     }
     return kept();
@@ -175,15 +162,15 @@ const State& Problem::Before(const std::vector<GroupId>& front) {
   return near_;
 }
 
-Sight Problem::Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,
+Sight Problem::Evaluate(const std::vector<GroupId>& block, bool sensitive, double until,
                         double tolerance) {
-  const State& from = Before(front);
+  const State& from = Before(block);
   if (aborted_) return {};
   return Look(from, {.tolerance = Tolerance(tolerance),
                      .until = until,
                      .most_cycles = kMostCyclesOfATrial,
                      .sensitive = sensitive,
-                     .front = front});
+                     .block = block});
 }
 
 }  // namespace contact

@@ -10,7 +10,7 @@
 
 namespace contact {
 
-/// The equations that a search solves: of a front of groups, the residuals at given μ and their
+/// The equations that a search solves: of a block of groups, the residuals at given μ and their
 /// slopes, in one pass through the motion.
 class Problem {
  public:
@@ -19,10 +19,6 @@ class Problem {
   /// Passes begin at `start`, which must outlive them. The run ends at `end` [s].
   void Begin(const State& start, double end, const std::stop_token& stop, std::int64_t step_limit);
 
-  /// Looks for the earliest groups that miss among the next `most_cycles` cycles.
-  /// `guess`: what was only guessed is guessed anew. `coarse`: with slopes, and as inexactly as a
-  /// first look may be.
-  Sight Scan(int most_cycles, bool guess, bool coarse = false);
   /// Sees the first stretch without pause, each cycle of it.
   Sight SeeStretch(int most_cycles);
   /// How a pass of the march is made.
@@ -39,18 +35,14 @@ class Problem {
   Sight March(const std::vector<GroupId>& block, const Marching& how);
   /// Sees the flight until a cycle begins, at most to the end of the run.
   Motion::Pause SeeFlight();
-  /// The front with the μ that its groups now have. `until`: what has not ended then is open [s].
+  /// The block with the μ that its groups now have. `until`: what has not ended then is open [s].
   /// `tolerance`: of the integration; 0: the scenario's, which is the finest.
-  Sight Evaluate(const std::vector<GroupId>& front, bool sensitive, double until,
+  Sight Evaluate(const std::vector<GroupId>& block, bool sensitive, double until,
                  double tolerance = 0);
 
   /// The largest μ [N·s/mⁿ⁺¹] that a group, as a pass has seen it, can feel: beyond it nothing
   /// turns any more.
   double MostMu(const GroupSight& group) const;
-
-  /// Until the next scan every pass begins at the start: what was kept in between may be why scans
-  /// and other passes disagree.
-  void Distrust() { trusting_ = false; }
 
   /// Whether the run was stopped or has spent its steps: no pass means anything any more.
   bool Aborted() const { return aborted_; }
@@ -70,7 +62,7 @@ class Problem {
   // What was known of a group when a state was kept.
   using Held = std::tuple<GroupId, double, double, bool>;
   Sight Look(const State& from, Pass::Plan plan);
-  const State& Before(const std::vector<GroupId>& front);
+  const State& Before(const std::vector<GroupId>& block);
   bool IsGuessed(const Sight& sight) const;
   std::vector<Held> HeldIn(const State& state) const;
   double Tolerance(double wanted) const;
@@ -80,12 +72,11 @@ class Problem {
   Pass pass_;
   const bool swings_;  // Whether a load or a drive is a sine.
   const State* start_ = nullptr;
-  State near_;              // Shortly before the last front, if
-  std::vector<Held> held_;  // all that begins before is still this,
-  Sight led_;               // and was seen so.
-  bool trusting_ = false;
+  State near_;                       // Shortly before the last block, if
+  std::vector<Held> held_;           // all that begins before is still this,
+  Sight led_;                        // and was seen so.
   std::map<GroupId, double> begun_;  // Earlier starts [s] of groups than other passes have seen.
-  double seen_ = 0;                  // How far the last scan went [s].
+  double seen_ = 0;                  // How far the last pass of the march went [s].
   double end_ = 0, far_ = 0;
   std::stop_token stop_;
   std::int64_t step_limit_ = 0;

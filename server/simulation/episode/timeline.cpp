@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/episode/front.h"
-
 namespace contact {
 namespace {
+
+constexpr std::size_t kNoneYet = static_cast<std::size_t>(-1);
 
 std::vector<GroupId> InOrderOfEnds(std::vector<const GroupSight*> groups) {
   std::ranges::sort(groups, {}, &GroupSight::end_time);
@@ -20,17 +20,38 @@ std::vector<GroupId> InOrderOfEnds(std::vector<const GroupSight*> groups) {
 const GroupSight* Timeline::FirstMiss(double least) const {
   const GroupSight* first = nullptr;
   for (const GroupSight& g : sight_.groups) {
-    if (g.start_time >= end_ || !Misses(g, groups_, least)) continue;
+    if (g.start_time >= end_ || !groups_.Misses(g, least)) continue;
     if (first == nullptr || g.end_time < first->end_time) first = &g;
   }
   return first;
 }
 
+// What the first miss overlaps, transitively, is widened by what runs still.
+bool Timeline::ShowsMiss(double least, std::size_t few) const {
+  const GroupSight* miss = FirstMiss(least);
+  if (miss == nullptr) return false;
+  double start = miss->start_time, end = miss->end_time;
+  std::size_t overlap = 0;
+  bool ended = true;
+  for (std::size_t before = kNoneYet; overlap != before;) {
+    before = overlap, overlap = 0;
+    for (const GroupSight& g : sight_.groups) {
+      if (g.weak || !g.sought || g.start_time >= std::min(end, end_)) continue;
+      if (g.ended && g.end_time <= start) continue;
+      ++overlap;
+      ended = ended && g.ended;
+      start = std::min(start, g.start_time);
+      if (g.ended) end = std::max(end, g.end_time);
+    }
+  }
+  return ended || overlap > few;
+}
+
 // Whether the search may move the μ of a group.
 bool Timeline::MayChange(const GroupSight& g) const {
   const Unknown* unknown = groups_.Find(g.id);
-  return g.sought && g.ended && !g.weak && unknown != nullptr && !unknown->Decided() && !unknown->waits &&
-         g.start_time < end_;
+  return g.sought && g.ended && !g.weak && unknown != nullptr && !unknown->Decided() &&
+         !unknown->waits && g.start_time < end_;
 }
 
 std::vector<GroupId> Timeline::Overlapping(const GroupSight& miss, double until,

@@ -18,6 +18,9 @@ class Timeline {
 
   /// The first group to end of those that miss by more than `least`; null: none.
   const GroupSight* FirstMiss(double least) const;
+  /// Whether there is a first miss, and all that overlaps it, transitively, has ended, or is more
+  /// than `few`.
+  bool ShowsMiss(double least, std::size_t few) const;
   /// A group that misses with those that overlap it, transitively, end no later and are not
   /// settled; in the order of ends, the last `most`. Where no more than `few` overlap, those that
   /// end later are among them.

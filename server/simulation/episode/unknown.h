@@ -31,7 +31,6 @@ struct Unknown {
   double lasts = 0;       ///< It does not end earlier after its start [s]: see Groups::Merge.
   double start_time = 0;  ///< Of the last pass that saw it [s].
   double restitution_out = kNaN;  ///< Of the last scan that saw its end.
-  double settled_mu = kNaN;       ///< μ when all in the last window had converged; NaN before.
   double length = 0;              ///< Expected δ_m − δ_s [m], and
   double speed = 0;               ///< largest |δ̇| [m/s] of its cycles; 0: unknown.
   bool corrected = false;         ///< μ is no mere guess any more.
