@@ -10,7 +10,6 @@
 #include "simulation/forecast/missing_contacts.h"
 #include "simulation/forecast/run_estimate.h"
 #include "simulation/kinds.h"
-#include "simulation/model/window.h"
 #include "testing/cases.h"
 
 namespace contact {
@@ -259,16 +258,10 @@ TEST(RunEstimate, CountsNoMoreSensitivitiesThanAWindowHolds) {
     const RunEstimate more = EstimateRunOf(s);
     return (more.memory_bytes - less.memory_bytes) / (more.ledger_bytes - less.ledger_bytes);
   };
-  // With room in the window a cycle takes its row and the sensitivities to its μ; then its row
-  // only.
+  // While a pass differentiates by all groups a cycle takes its row and the sensitivities to its μ;
+  // then its row only.
   EXPECT_GT(memory_per_ledger(0.005, 0.01), 0.9);
   EXPECT_LT(memory_per_ledger(1, 2), 0.7);
-}
-
-TEST(MostWindowCycles, GrowsWithTheContactsBetweenItsBounds) {
-  EXPECT_EQ(MostWindowCycles(0), kSpareWindowCycles);
-  EXPECT_EQ(MostWindowCycles(10), 10 + kSpareWindowCycles);
-  EXPECT_EQ(MostWindowCycles(100'000), kMostWindowCycles);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "simulation/episode/search_options.h"
 #include "simulation/episode/timeline.h"
+#include "simulation/model/columns.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -131,8 +132,9 @@ GroupSight* Pass::Seen(const ContactState& state) {
 }
 
 bool Pass::WantsColumn(const GroupId& id) const {
-  return plan_.sensitive && (plan_.wide || plan_.block.empty() ||
-                             std::ranges::find(plan_.block, id) != plan_.block.end());
+  return plan_.sensitive && columns_ < kMostColumns &&
+         (plan_.wide || plan_.block.empty() ||
+          std::ranges::find(plan_.block, id) != plan_.block.end());
 }
 
 CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, double external_force) {

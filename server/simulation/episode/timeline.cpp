@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/model/columns.h"
+
 namespace contact {
 namespace {
 
@@ -91,7 +93,9 @@ std::vector<GroupId> Timeline::Solved(double least, double most) const {
     const bool open = !settled_(g.id) || miss > least;
     if (MayChange(g) && open && miss <= most) in.push_back(&g);
   }
-  return InOrderOfEnds(in);
+  std::vector<GroupId> ids = InOrderOfEnds(in);
+  if (ids.size() > kMostColumns) ids.resize(kMostColumns);
+  return ids;
 }
 
 // Whether all groups that overlap it have ended, before the first miss does, and all that overlap

@@ -26,7 +26,7 @@ class Timeline {
   /// end later are among them.
   std::vector<GroupId> Block(const GroupSight& miss, std::size_t few, std::size_t most) const;
   /// All that has ended and misses by no more than `most`, but what is settled and misses by no
-  /// more than `least`; in the order of ends.
+  /// more than `least`; in the order of ends, as many as a pass can differentiate by.
   std::vector<GroupId> Solved(double least, double most) const;
   /// The instant [s] before which all that begins is final, if `miss`, or null, is the first miss.
   double FinalUntil(const GroupSight* miss) const;

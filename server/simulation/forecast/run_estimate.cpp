@@ -9,7 +9,7 @@
 #include "simulation/forecast/first_meeting.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/observer.h"
-#include "simulation/model/window.h"
+#include "simulation/model/columns.h"
 
 namespace contact {
 namespace {
@@ -183,7 +183,7 @@ double Memory(const Scenario& scenario, const std::vector<Cycles>& cycles, doubl
   for (const Cycles& c : cycles) unknowns += c.passes > 1 ? c.count : 0;
   const double state = 2 * static_cast<double>(scenario.bodies.size()) +
                        5 * static_cast<double>(scenario.contacts.size());
-  const double columns = std::min<double>(unknowns, MostWindowCycles(scenario.contacts.size()));
+  const double columns = std::min<double>(unknowns, kMostColumns);
   const double pending = std::min(samples, kChunksAtOnce * ChunkRows(scenario));
   return sizeof(double) * state * (kStages + kTangents * columns) +
          SampleBytes(scenario, pending, kColumnMemory);
