@@ -8,10 +8,8 @@
 namespace contact {
 namespace {
 
-// A guess that is off by more than this, relative, is poor; it is made again so often at most, for
-// what was solved with it is lost.
+// A kept guess that is off by more than this, relative, is poor, and made again.
 constexpr double kPoorShare = 0.2;
-constexpr int kGuesses = 2;
 // A contact does not rest for less than this part of the cycle before.
 constexpr double kSoon = 0.1;
 
@@ -92,8 +90,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
 void Membership::Guess(Unknown& unknown, double mu) const {
   if (unknown.kept && IsSought(scenario_, unknown.id.contact)) {
     const bool poor = std::abs(mu - unknown.mu) > kPoorShare * unknown.mu;
-    if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kGuesses) return;
-    ++unknown.guesses;
+    if (!poor || packing_ || unknown.id.place > 1) return;
   }
   unknown.mu = unknown.first_mu = mu;
 }

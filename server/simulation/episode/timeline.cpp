@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/episode/search_options.h"
 #include "simulation/model/columns.h"
 
 namespace contact {
@@ -25,7 +26,20 @@ const GroupSight* Timeline::FirstMiss(double least) const {
     if (g.start_time >= end_ || !groups_.Misses(g, least)) continue;
     if (first == nullptr || g.end_time < first->end_time) first = &g;
   }
+  // A poor guess may end too early: what began before it has its turn.
+  if (first != nullptr && IsPoor(*first)) {
+    for (const GroupSight& g : sight_.groups) {
+      if (g.start_time < first->start_time && g.end_time > first->start_time &&
+          g.start_time < end_ && groups_.Misses(g, least))
+        return &g;
+    }
+  }
   return first;
+}
+
+bool Timeline::IsPoor(const GroupSight& g) const {
+  const Unknown* unknown = groups_.Find(g.id);
+  return unknown != nullptr && !unknown->corrected && std::abs(g.Miss()) > kSearch.astray;
 }
 
 // What the first miss overlaps, transitively, is widened by what runs still.
@@ -60,6 +74,7 @@ std::vector<GroupId> Timeline::Overlapping(const GroupSight& miss, double until,
                                            bool settled) const {
   std::vector<const GroupSight*> left, in = {&miss};
   for (const GroupSight& g : sight_.groups) {
+    if (IsPoor(g) && g.start_time > miss.start_time) continue;
     if (&g != &miss && MayChange(g) && g.end_time <= until && (settled || !settled_(g.id))) {
       left.push_back(&g);
     }

@@ -35,6 +35,7 @@ class Timeline {
   std::vector<GroupId> Overlapping(const GroupSight& miss, double until, bool settled) const;
   bool IsForeseen(const GroupSight& group, const GroupSight* miss) const;
   bool MayChange(const GroupSight& group) const;
+  bool IsPoor(const GroupSight& group) const;
 
   const Sight& sight_;
   const Groups& groups_;
