@@ -138,8 +138,7 @@ bool March::MayBeAll(const Sight& sight, const GroupSight* miss) const {
          std::ranges::all_of(sight.groups, [](const auto& g) { return g.separated || !g.sought; });
 }
 
-// Solves all that was solved ahead to the scenario's tolerance; where that stalls, the first that
-// misses with what overlaps it.
+// Solves all that was solved ahead to the scenario's tolerance.
 std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* miss) {
   const Timeline timeline = Read(sight);
   const Ids open = timeline.Solved(problem_.tolerance(), kSearch.ahead_miss);
@@ -162,20 +161,34 @@ std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* mi
   if (end == Hybrid::End::kUnseen) return End{.until = problem_.end(), .tentative = true};
   if (end == Hybrid::End::kLimit) GiveUp(open);
   if (end == Hybrid::End::kSolved) Settle(open);
-  if (end == Hybrid::End::kStalled) SolveStrictly();
+  if (end == Hybrid::End::kStalled) SolveStrictly(open);
   return {};
 }
 
-// One group after the other to the scenario's tolerance, up to where the march has not been: what
-// is solved ahead to less may have no solution.
-void March::SolveStrictly() {
-  while (!problem_.Aborted()) {
-    coarse_ = false;
-    const Sight exact = next_ ? *std::exchange(next_, {}) : Look();
-    const GroupSight* first = Read(exact).FirstMiss(problem_.tolerance());
-    const bool ahead = first == Read(exact).FirstMiss(kSearch.ahead_miss);
-    if (ahead || !SolveFirst(exact, *first, problem_.tolerance(), Precision::kExact)) return;
+// What is solved ahead to less may have no solution. Groups depend on those that end before them
+// only, so more and more of them are solved, a few at once, up to the first because of which no
+// step helps.
+void March::SolveStrictly(const Ids& open) {
+  std::size_t solved = 0;
+  for (std::size_t few = kSearch.at_once; solved < open.size();) {
+    const std::size_t next = std::min(solved + few, open.size());
+    const Ids first(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(next));
+    const Hybrid::End end = SolveBlock(first, nullptr, problem_.tolerance(), Precision::kExact);
+    if (end == Hybrid::End::kLimit) GiveUp(first);
+    if (problem_.Aborted() || end == Hybrid::End::kLimit) return;
+    if (end == Hybrid::End::kStalled && few == 1) break;
+    if (end != Hybrid::End::kStalled) solved = next;
+    few = end == Hybrid::End::kStalled ? 1 : few;
   }
+  if (solved == open.size()) return;
+  coarse_ = false;
+  const Sight exact = Look();
+  const GroupSight* miss = exact.Find(open[solved]);
+  if (miss == nullptr || !problem_.groups.Misses(*miss, problem_.tolerance())) {
+    miss = Read(exact).FirstMiss(problem_.tolerance());
+  }
+  if (problem_.Aborted() || miss == nullptr) return;
+  SolveFirst(exact, *miss, problem_.tolerance(), Precision::kExact);
 }
 
 // A group is settled if what was solved since it was polished last has not moved its μ.

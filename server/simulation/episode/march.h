@@ -57,7 +57,7 @@ class March {
   void Settle(const Ids& ids);
   bool Has(const Ids& ids, const Sight& sight) const;
   void Freeze(const Ids& ids, const Sight& sight);
-  void SolveStrictly();
+  void SolveStrictly(const Ids& open);
   bool SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how);
   void Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how);
   bool Waits(const GroupSight& group, const Sight& sight);

@@ -48,7 +48,7 @@ struct SearchOptions {
   /// Below this miss Broyden's update takes the place of slopes of blocks of more than `at_once`.
   double near = 1e-3;
   /// Trials of a step: 1.5 % of one that does not help, the fifth, is no descent worth its passes.
-  int trials = 5;
+  int trials = 3;
   /// Two steps in a row of less than this part lead to a jump, not to a root.
   double creep = 0.2;
   /// Roots of a group alone that lead to no solution of its block, until it grows.
