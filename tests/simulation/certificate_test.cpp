@@ -23,7 +23,7 @@ TEST_P(EveryKind, IsConfirmedByAnIndependentIntegration) {
     const bool pressed = GetParam() == static_cast<int>(Kind::kPressed);
     EXPECT_LT(miss.velocity, 1e-8);
     EXPECT_LT(miss.restitution, 1e-8);
-    EXPECT_LT(miss.time, pressed ? 1e-7 : 1e-8);
+    EXPECT_LT(miss.time, pressed ? 2e-7 : 1e-8);
     EXPECT_LT(miss.worst, pressed ? 2e-8 : 1e-8) << miss.where;
     EXPECT_LT(miss.overlap, 1e-8);
     EXPECT_EQ(miss.checked_until, scenario.end_time);

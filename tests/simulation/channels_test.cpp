@@ -66,7 +66,7 @@ TEST_P(Balance, IsClosedAtEverySample) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     Scenario s = testing::RollKind(GetParam(), seed);
     Sampled(&s);
-    s.solver.max_steps = 200'000;
+    s.solver.max_steps = 500'000;
     const Record r = RunAndRecord(s);
     ASSERT_GT(r.rows(), 0);
     ASSERT_EQ(r.columns, SampleColumns(s));

