@@ -62,6 +62,7 @@ class Copier {
     if (!stored->MergeResult()) return FailsChecksum(name);
     v1::Job open = stored->job;  // One that has ended would take no events.
     open.set_state(v1::Job::QUEUED);
+    *open.mutable_labels() = {stored->created_labels.begin(), stored->created_labels.end()};
     const NewJob made{open, stored->request_id, {}};
     const Answer<StoredJob> created =
         Await<Answer<StoredJob>>([&](auto done) { to_.Create(made, std::move(done)); });
@@ -112,6 +113,15 @@ class Copier {
                              to_.RequestCancel(name, std::move(done));
                            }).status();
       if (!asked.ok()) return asked;
+    }
+    JobRemark remark{.name = name};
+    const JobLabels labels(stored.job.labels().begin(), stored.job.labels().end());
+    if (labels != stored.created_labels) remark.labels = labels;
+    if (!stored.job.note().empty()) remark.note = stored.job.note();
+    if (remark.labels || remark.note) {
+      absl::Status said =
+          Await<Answer<JobOwner>>([&](auto done) { to_.Remark(remark, std::move(done)); }).status();
+      if (!said.ok()) return said;
     }
     if (!stored.compacted) return absl::OkStatus();
     return Await<Answer<JobOwner>>([&](auto done) { to_.Compact(name, std::move(done)); }).status();

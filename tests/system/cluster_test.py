@@ -430,6 +430,7 @@ class RolesTest(ClusterTest):
                 ("a_front", "SELECT contactd.leave('nobody')"),
                 ("a_worker", "SELECT contactd.keep('page-secret', '', false)"),
                 ("a_worker", "SELECT contactd.remove_job('jobs/a', '')"),
+                ("a_worker", "SELECT contactd.remark_job('jobs/a', '', 0, '', '{}', '{}', 0, '')"),
                 ("a_worker", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
                 ("a_launcher", "SELECT contactd.read_job('jobs/a', '', true, true, true)"),
                 ("a_launcher", "SELECT contactd.purge(1)"),
