@@ -59,6 +59,7 @@ test('each change can be taken back, from the form and from the keys of the edit
   await editor.press('Control+z');
   await hold(async () => await editor.inputValue() === chain);
   await editor.press('Control+y');
+  assert.equal(await editor.evaluate((area) => area.selectionEnd), chain.indexOf('velocity_m_per_s: 0.2') + 'velocity_m_per_s: 0.3'.length);
   await hold(async () => /velocity_m_per_s: 0.3/.test(await editor.inputValue()));
 });
 

@@ -7,7 +7,7 @@ import {parse, parseDocument} from 'yaml';
 import {ScenarioSchema, Wall_Side} from '../src/api/generated/contact/v1/scenario_pb';
 import {numberOf, setAt, textOf, type Path} from '../src/model/form/edit';
 import {choicesOf, fieldsOf} from '../src/model/form/fields';
-import {begun, changed, redone, undone} from '../src/model/form/history';
+import {begun, changed, endOfChange, redone, undone} from '../src/model/form/history';
 import {entryOfContact, newEntry, objectsOf} from '../src/model/form/objects';
 import {hitAt} from '../src/model/form/hit';
 import {placeOf} from '../src/model/form/place';
@@ -202,5 +202,8 @@ describe('the history of a text', () => {
     expect(redone(redone(undone(undone(history)))).text).toBe('abc!');
     expect(undone(begun('x')).text).toBe('x');
     expect(changed(undone(history), 'other', 'form', 9e9).future).toEqual([]);
+  });
+  it('knows where the cursor belongs', () => {
+    expect([['a: 1\nb', 'a: 12\nb'], ['aaa', 'aa'], ['', 'x'], ['x', 'x']].map(([before, after]) => endOfChange(before!, after!))).toEqual([5, 2, 1, 1]);
   });
 });

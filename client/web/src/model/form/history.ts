@@ -28,6 +28,16 @@ export function undone({past, text, future, ...rest}: History): History {
   return {past: past.slice(0, -1), text: past.at(-1)!, future: [text, ...future], by: '', at: 0};
 }
 
+/** Where the part of `after` ends that is not in `before`: where the cursor belongs. */
+export function endOfChange(before: string, after: string): number {
+  const most = Math.min(before.length, after.length);
+  let start = 0;
+  while (start < most && before[start] === after[start]) ++start;
+  let tail = 0;
+  while (tail < most - start && before.at(-1 - tail) === after.at(-1 - tail)) ++tail;
+  return after.length - tail;
+}
+
 /** A step forward again. */
 export function redone({past, text, future, ...rest}: History): History {
   if (future.length === 0) return {past, text, future, ...rest};
