@@ -66,8 +66,9 @@ function removed(text: string, list: List, at: number): string {
   const entry = list.items[at];
   if (!list.flow) {
     const start = lineStart(text, entryStart(entry));
-    const end = lineEnd(text, entryEnd(entry));
-    return text.slice(0, start) + text.slice(Math.min(end + 1, text.length));
+    const rest = text.slice(Math.min(lineEnd(text, entryEnd(entry)) + 1, text.length));
+    const behindDash = isMap(list) && text.slice(start, entryStart(entry)).trim() !== '';
+    return behindDash ? text.slice(0, entryStart(entry)) + rest.trimStart() : text.slice(0, start) + rest;
   }
   const next = list.items[at + 1];
   if (next !== undefined) return text.slice(0, entryStart(entry)) + text.slice(entryStart(next));
