@@ -105,6 +105,17 @@ class Copier {
     return absl::OkStatus();
   }
 
+  // What people have said of a job since it was created.
+  absl::Status CopyRemark(const StoredJob& stored) {
+    JobRemark remark{.name = stored.job.name()};
+    const JobLabels labels(stored.job.labels().begin(), stored.job.labels().end());
+    if (labels != stored.created_labels) remark.labels = labels;
+    if (!stored.job.note().empty()) remark.note = stored.job.note();
+    if (!remark.labels && !remark.note) return absl::OkStatus();
+    return Await<Answer<JobOwner>>([&](auto done) { to_.Remark(remark, std::move(done)); })
+        .status();
+  }
+
   // What else the store remembers of a job.
   absl::Status CopyMarks(const StoredJob& stored) {
     const std::string& name = stored.job.name();
@@ -114,15 +125,7 @@ class Copier {
                            }).status();
       if (!asked.ok()) return asked;
     }
-    JobRemark remark{.name = name};
-    const JobLabels labels(stored.job.labels().begin(), stored.job.labels().end());
-    if (labels != stored.created_labels) remark.labels = labels;
-    if (!stored.job.note().empty()) remark.note = stored.job.note();
-    if (remark.labels || remark.note) {
-      absl::Status said =
-          Await<Answer<JobOwner>>([&](auto done) { to_.Remark(remark, std::move(done)); }).status();
-      if (!said.ok()) return said;
-    }
+    if (absl::Status said = CopyRemark(stored); !said.ok()) return said;
     if (!stored.compacted) return absl::OkStatus();
     return Await<Answer<JobOwner>>([&](auto done) { to_.Compact(name, std::move(done)); }).status();
   }

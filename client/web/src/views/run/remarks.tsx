@@ -41,8 +41,9 @@ export function Remarks({job}: {job: Job}) {
   };
   const store = (event: Event) => {
     event.preventDefault();
-    const {set, wrong} = labelChangeOf(draft!.labels);
-    if (wrong.length > 0) { setError(`${wrong.join(', ')}: write labels as key=value`); return; }
+    const {set, removed, wrong} = labelChangeOf(draft!.labels);   // All of them: one goes when it is not written.
+    const none = [...wrong, ...removed.map((key) => `${key}-`)];
+    if (none.length > 0) { setError(`${none.join(', ')}: write labels as key=value`); return; }
     server.updateJob({job: {name, labels: set, note: draft!.note}, updateMask: {paths: ['labels', 'note']}, expectedUid: job.uid}).then(
       (newest) => { setSaid(newest); setDraft(undefined); setError(''); }, fail);
   };
