@@ -155,6 +155,13 @@ export class Client {
     return this.answered((options, answer) => this.stub.CancelJob({name}, options, answer));
   }
 
+  /** Gives a job, in whatever state, these labels in place of all that it has, and this note. */
+  update(name: string, change: Pick<JobInput, 'labels' | 'note'>): Promise<Job> {
+    const paths = (['labels', 'note'] as const).filter((field) => change[field] !== undefined);
+    const request = {job: {...change, name}, update_mask: {paths}};
+    return this.answered((options, answer) => this.stub.UpdateJob(request, options, answer));
+  }
+
   /** Removes an ended job and its events. */
   async delete(name: string): Promise<void> {
     await this.answered((options, answer) => this.stub.DeleteJob({name}, options, answer));

@@ -12,6 +12,7 @@ constexpr std::array kMethods = std::to_array<MethodRule>({
     {"/contact.v1.JobService/ListJobs", Permission::kRead, false},
     // Of the jobs of others: Permission::kChangeAny.
     {"/contact.v1.JobService/CancelJob", Permission::kSubmit, true},
+    {"/contact.v1.JobService/UpdateJob", Permission::kSubmit, true},
     {"/contact.v1.JobService/DeleteJob", Permission::kSubmit, true},
     {"/contact.v1.JobService/WatchJob", Permission::kRead, false},
     {"/contact.v1.JobService/WatchJobs", Permission::kRead, false},

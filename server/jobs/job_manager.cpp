@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/future.h"
+#include "jobs/read/update_rules.h"
 #include "jobs/schedule/scheduler.h"
 
 namespace contact {
@@ -69,6 +70,21 @@ void JobManager::Cancel(const Principal& caller, const v1::CancelJobRequest& req
   IfAllowed(caller, request.name(), cancel, done);
 }
 
+void JobManager::Update(const Principal& caller, const v1::UpdateJobRequest& request,
+                        const Callback<v1::Job>& done) {
+  const Result<JobRemark> remark = ToRemark(request);
+  if (!remark.ok()) return done(remark.error());
+  const std::string& name = request.job().name();
+  const auto change = [this, caller, name, remark = remark.value(), done] {
+    store_.Remark(remark, [this, caller, name, done](const absl::StatusOr<JobOwner>& whose) {
+      if (!whose.ok()) return done(ToError(whose.status(), name));
+      feed_.Changed(whose->tenant, name);
+      reader_.Get(caller, name, done);
+    });
+  };
+  IfAllowed(caller, name, change, done);
+}
+
 void JobManager::Delete(const Principal& caller, const v1::DeleteJobRequest& request,
                         const Callback<bool>& done) {
   const auto remove = [this, request, done] {
@@ -127,7 +143,7 @@ void JobManager::Stop() {
   decoder_.Stop();
   retention_.Stop();
   unfinished_->Stop();
-  // Cancel asks the store three times, each time once the answer before has come.
+  // Cancel and Update ask the store three times, each time once the answer before has come.
   for (int i = 0; i < 3; ++i) {
     Await<bool>([this](const auto& done) { store_.Flush([done] { done(true); }); });
   }

@@ -59,6 +59,10 @@ class JobManager {
   /// change those of others of the tenant.
   void Cancel(const Principal& caller, const v1::CancelJobRequest& request,
               const Callback<v1::Job>& done);
+  /// Changes what people say of a job, whatever its state; `done` gets the job as it is then.
+  /// PERMISSION_DENIED: as Cancel.
+  void Update(const Principal& caller, const v1::UpdateJobRequest& request,
+              const Callback<v1::Job>& done);
   /// Deletes a job that has ended, with its log. PERMISSION_DENIED: as Cancel.
   void Delete(const Principal& caller, const v1::DeleteJobRequest& request,
               const Callback<bool>& done);

@@ -61,6 +61,14 @@ ServerUnaryReactor* JobService::CancelJob(Context* context, const v1::CancelJobR
   });
 }
 
+ServerUnaryReactor* JobService::UpdateJob(Context* context, const v1::UpdateJobRequest* request,
+                                          v1::Job* response) {
+  const Call call{"/contact.v1.JobService/UpdateJob", request->job().name()};
+  return calls_.Unary<v1::Job>(context, call, response, [&](const auto& caller, auto answer) {
+    jobs_.Update(caller, *request, answer);
+  });
+}
+
 ServerUnaryReactor* JobService::DeleteJob(Context* context, const v1::DeleteJobRequest* request,
                                           google::protobuf::Empty* response) {
   const Call call{"/contact.v1.JobService/DeleteJob", request->name()};

@@ -44,6 +44,9 @@ class JobService final : public v1::JobService::WithRawCallbackMethod_CreateJob<
   /// Answered by the manager once it is stored that the job is to stop.
   Unary* CancelJob(Context* context, const v1::CancelJobRequest* request,
                    v1::Job* response) override;
+  /// Answered by the manager once the change is stored.
+  Unary* UpdateJob(Context* context, const v1::UpdateJobRequest* request,
+                   v1::Job* response) override;
   /// Answered by the manager once the job is gone from the disk.
   Unary* DeleteJob(Context* context, const v1::DeleteJobRequest* request,
                    google::protobuf::Empty* response) override;

@@ -31,7 +31,7 @@ JobInsert ToInsert(const NewJob& job) {
                    .limits = job.limits,
                    .priority = job.job.priority(),
                    .cells = job.job.progress().cells()};
-  insert.labels.assign(job.job.labels().begin(), job.job.labels().end());
+  insert.labels.insert(job.job.labels().begin(), job.job.labels().end());
   // The id belongs to its tenant, whose name has no slash.
   if (!job.request_id.empty()) {
     insert.request_key = absl::StrCat(insert.whose.tenant, "/", job.request_id);
@@ -68,6 +68,12 @@ JobChange Joined(const JobChange& first, const JobChange& last) {
     both.checkpoint = first.checkpoint;
   }
   return both;
+}
+
+std::string BytesOf(const JobLabels& labels) {
+  v1::Job job;
+  job.mutable_labels()->insert(labels.begin(), labels.end());
+  return Split(job).spec;
 }
 
 std::size_t BytesOf(const std::vector<EventRow>& events) {

@@ -25,7 +25,7 @@ struct JobInsert {
   /// A v1::Job::State.
   int state = 0;
   std::string uid;
-  std::vector<std::pair<std::string, std::string>> labels;
+  JobLabels labels;
   JobParts parts;
   std::vector<EventRow> events;
   /// See NewJob::may_create.
@@ -61,6 +61,9 @@ struct JobChange {
 JobChange ToChange(const JobUpdate& update);
 /// One change that does what `first` and then `last` do to the same job.
 JobChange Joined(const JobChange& first, const JobChange& last);
+
+/// Labels as a remark keeps them.
+std::string BytesOf(const JobLabels& labels);
 
 /// Bytes that events take in the store.
 std::size_t BytesOf(const std::vector<EventRow>& events);

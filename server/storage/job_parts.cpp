@@ -45,6 +45,7 @@ v1::Job HeaderOf(const v1::Job& job) {
   header.clear_cycles();
   header.clear_groups();
   header.clear_final_bodies();
+  header.clear_note();
   return header;
 }
 

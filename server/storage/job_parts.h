@@ -14,7 +14,8 @@ namespace contact {
 /// The pieces in which a job is stored, by how often they change. Each is a serialised v1::Job with
 /// some of its fields; put together in any order they parse to the whole job.
 struct JobParts {
-  /// All fields but the spec, cycles, groups and final bodies. Rewritten at every transition.
+  /// All fields but the spec, cycles, groups, final bodies and the note. Rewritten at every
+  /// transition, also with labels from before a JobRemark, which is kept beside it.
   std::string header;
   /// What the client sent: spec, labels, priority, budget and time to live. Equal jobs give equal
   /// bytes.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,9 @@
 #include "storage/event_coding.h"
 
 namespace contact {
+
+/// Labels of a job, each key once; see v1::Job.labels.
+using JobLabels = std::map<std::string, std::string>;
 
 /// What there may be of jobs that have not ended, for one more to be created; 0: any number. An
 /// engine that many processes share counts them; where one process owns the store, it does.
@@ -67,6 +71,17 @@ struct JobUpdate {
   const Checkpoint* checkpoint = nullptr;
 };
 
+/// What people say of a job from now on, whatever its state and whoever runs it.
+struct JobRemark {
+  std::string name;
+  /// The uid that the job must have; empty: any.
+  std::string expected_uid = {};
+  /// All of its labels; nothing: as before.
+  std::optional<JobLabels> labels = {};
+  /// Its note; nothing: as before.
+  std::optional<std::string> note = {};
+};
+
 /// What of a job to read.
 enum class JobPart {
   /// All but spec, cycles, groups and final bodies.
@@ -90,6 +105,8 @@ struct StoredJob {
   bool compacted = false;
   /// NewJob::request_id; empty without one.
   std::string request_id = {};
+  /// The labels of its spec, if that was read. Those of `job` are newer once there was a JobRemark.
+  JobLabels created_labels = {};
   /// True if this call of Store::Create made the job.
   bool created = false;
   /// False if the job fails its checksum: then only name, state and sequences of `job` are right.
@@ -121,7 +138,7 @@ struct JobQuery {
   /// Jobs in one of these states; empty: in any.
   std::vector<int> states = {};
   /// Jobs that have all of these labels.
-  std::vector<std::pair<std::string, std::string>> labels = {};
+  JobLabels labels = {};
   /// Jobs whose name begins with this.
   std::string name_prefix = {};
   /// JobPage::next of the page before; 0: from the newest job on.

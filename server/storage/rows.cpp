@@ -8,13 +8,30 @@
 #include "storage/refusals.h"
 
 namespace contact {
+namespace {
+
+// Gives the job the labels and the note of remarks. False: one fails its checksum.
+bool AddRemarks(const JobColumns& columns, v1::Job* job) {
+  if (columns.labels_crc32 != kNoRemark) {
+    v1::Job said;
+    if (!Passes(columns.labels_crc32, columns.labels, columns.name)) return false;
+    if (!said.ParseFromString(columns.labels)) return false;
+    job->mutable_labels()->swap(*said.mutable_labels());
+  }
+  if (columns.note_crc32 == kNoRemark) return true;
+  job->set_note(columns.note);
+  return Passes(columns.note_crc32, columns.note, columns.name);
+}
+
+}  // namespace
 
 StoredJob ToStored(const JobColumns& columns) {
   StoredJob stored;
   v1::Job& job = stored.job;
   stored.intact = columns.sealed && Checksum(columns.header) == columns.crc32 &&
                   job.ParseFromString(columns.header) && job.name() == columns.name &&
-                  OwnerOf(job) == columns.owner && TenantOf(job) == columns.tenant;
+                  OwnerOf(job) == columns.owner && TenantOf(job) == columns.tenant &&
+                  AddRemarks(columns, &job);
   if (!stored.intact) job.Clear();
   job.set_name(columns.name);
   job.set_owner(columns.owner);
@@ -41,9 +58,12 @@ StoredEvent ToStored(std::uint64_t sequence, int kind, CodedEvent event, std::in
   return stored;
 }
 
-void MergePart(const std::string& bytes, std::int64_t crc32, StoredJob* stored) {
-  stored->intact = stored->intact && Passes(crc32, bytes, stored->job.name()) &&
-                   stored->job.MergeFromString(bytes);
+void MergeSpec(const std::string& bytes, std::int64_t crc32, StoredJob* stored) {
+  v1::Job& job = stored->job;
+  const auto newest = std::exchange(*job.mutable_labels(), {});
+  stored->intact = stored->intact && Passes(crc32, bytes, job.name()) && job.MergeFromString(bytes);
+  stored->created_labels.insert(job.labels().begin(), job.labels().end());
+  *job.mutable_labels() = newest;
 }
 
 void AddCheckpoint(std::string state, std::int64_t crc32, std::uint64_t sequence,

@@ -111,7 +111,7 @@ struct LogPosition {
   bool ended = false;
 };
 
-/// Jobs that have changed their states.
+/// Jobs that have changed their states, labels or notes.
 struct MovedJobs {
   struct Job {
     std::string name;

@@ -77,6 +77,10 @@ class Store {
   /// Remembers that a user wants a job cancelled, whoever runs it. NOT_FOUND.
   virtual void RequestCancel(std::string name, Callback<bool> done) = 0;
 
+  /// Replaces labels or note of a job, and answers whose it is. NOT_FOUND. ABORTED, with the
+  /// payload kUidPayload: its uid is another.
+  virtual void Remark(JobRemark remark, Callback<JobOwner> done) = 0;
+
   /// Reads a job, or the parts of it that `part` names, for the server itself. NOT_FOUND.
   virtual void Read(std::string name, JobPart part, Callback<StoredJob> done) = 0;
   /// As Read, for a caller of this tenant. NOT_FOUND, also for the job of another tenant.

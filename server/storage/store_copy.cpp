@@ -62,6 +62,7 @@ class Copier {
     if (!stored->MergeResult()) return FailsChecksum(name);
     v1::Job open = stored->job;  // One that has ended would take no events.
     open.set_state(v1::Job::QUEUED);
+    *open.mutable_labels() = {stored->created_labels.begin(), stored->created_labels.end()};
     const NewJob made{open, stored->request_id, {}};
     const Answer<StoredJob> created =
         Await<Answer<StoredJob>>([&](auto done) { to_.Create(made, std::move(done)); });
@@ -104,6 +105,17 @@ class Copier {
     return absl::OkStatus();
   }
 
+  // What people have said of a job since it was created.
+  absl::Status CopyRemark(const StoredJob& stored) {
+    JobRemark remark{.name = stored.job.name()};
+    const JobLabels labels(stored.job.labels().begin(), stored.job.labels().end());
+    if (labels != stored.created_labels) remark.labels = labels;
+    if (!stored.job.note().empty()) remark.note = stored.job.note();
+    if (!remark.labels && !remark.note) return absl::OkStatus();
+    return Await<Answer<JobOwner>>([&](auto done) { to_.Remark(remark, std::move(done)); })
+        .status();
+  }
+
   // What else the store remembers of a job.
   absl::Status CopyMarks(const StoredJob& stored) {
     const std::string& name = stored.job.name();
@@ -113,6 +125,7 @@ class Copier {
                            }).status();
       if (!asked.ok()) return asked;
     }
+    if (absl::Status said = CopyRemark(stored); !said.ok()) return said;
     if (!stored.compacted) return absl::OkStatus();
     return Await<Answer<JobOwner>>([&](auto done) { to_.Compact(name, std::move(done)); }).status();
   }

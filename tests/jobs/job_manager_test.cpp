@@ -291,6 +291,29 @@ TEST_F(JobsTest, CancelOfAnEndedJobChangesNothing) {
   EXPECT_EQ(Cancel(ended.name()).value().SerializeAsString(), ended.SerializeAsString());
 }
 
+TEST_F(JobsTest, UpdateChangesWhatTheMaskNamesInAnyState) {
+  OpenWithFakeRun();
+  const std::string name = Create();
+  v1::UpdateJobRequest request;
+  request.mutable_job()->set_name(name);
+  (*request.mutable_job()->mutable_labels())["law"] = "x";
+  request.mutable_job()->set_note("a\nβ");
+  request.mutable_update_mask()->add_paths("note");
+  EXPECT_EQ(Update(request).value().labels_size(), 0);
+  request.mutable_update_mask()->clear_paths();
+  EXPECT_EQ(Update(request).value().labels().at("law"), "x");
+  run_.Allow();
+  Ended(name);
+  EXPECT_EQ(Get(name).value().note(), "a\nβ");
+  request.mutable_job()->clear_note();
+  request.mutable_job()->clear_labels();
+  request.mutable_update_mask()->add_paths("*");
+  const v1::Job job = Update(request).value();
+  EXPECT_EQ(job.note(), "");
+  EXPECT_EQ(job.labels_size(), 0);
+  EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
+}
+
 TEST_F(JobsTest, CallsOnAMissingJobAreNotFound) {
   OpenWithFakeRun();
   LogReader reader;

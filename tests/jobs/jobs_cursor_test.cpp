@@ -213,5 +213,22 @@ TEST(JobFeed, WakesOnceForWhatIsNotLookedAt) {
   EXPECT_EQ(wakes, 2);
 }
 
+TEST_F(JobsCursorTest, NewLabelsBringAndTakeAJob) {
+  OpenWithFakeRun();
+  const std::string name = Create();
+  v1::WatchJobsRequest request;
+  (*request.mutable_labels())["law"] = "x";
+  const auto cursor = Watch(request);
+  EXPECT_THAT(Names(Next(*cursor)), IsEmpty());
+  ASSERT_TRUE(Relabel(name, "law", "x").ok());
+  for (v1::WatchJobsResponse message; Names(message).empty(); message = Next(*cursor)) {
+    EXPECT_THAT(message.gone(), testing::Each(name)) << "as its run goes on";
+  }
+  ASSERT_TRUE(Relabel(name, "law", "y").ok());
+  v1::WatchJobsResponse last;
+  while (last.gone().empty()) last = Next(*cursor);
+  EXPECT_THAT(last.gone(), ElementsAre(name));
+}
+
 }  // namespace
 }  // namespace contact

@@ -178,6 +178,19 @@ class JobsTest : public testing::Test {
     manager_->Cancel(LocalPrincipal(), request, result.callback());
     return result.Get();
   }
+  Result<v1::Job> Update(const v1::UpdateJobRequest& request) {
+    Await<Result<v1::Job>> result;
+    manager_->Update(LocalPrincipal(), request, result.callback());
+    return result.Get();
+  }
+  /// Replaces labels of a job.
+  Result<v1::Job> Relabel(const std::string& name, const std::string& key,
+                          const std::string& value) {
+    v1::UpdateJobRequest request;
+    request.mutable_job()->set_name(name);
+    (*request.mutable_job()->mutable_labels())[key] = value;
+    return Update(request);
+  }
   Result<bool> Delete(const std::string& name, const std::string& expected_uid = "") {
     v1::DeleteJobRequest request;
     request.set_name(name);

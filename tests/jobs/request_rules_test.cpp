@@ -3,6 +3,7 @@
 #include "jobs/read/create_rules.h"
 #include "jobs/read/list_rules.h"
 #include "jobs/read/series_rules.h"
+#include "jobs/read/update_rules.h"
 #include "jobs/read/watch_rules.h"
 
 namespace contact {
@@ -101,6 +102,45 @@ TEST(CheckCreate, RefusesSettingsThatAreNone) {
   job.mutable_budget()->mutable_wall_time()->set_seconds(1);
   job.mutable_budget()->mutable_wall_time()->set_nanos(-1);
   EXPECT_EQ(CheckCreate(request).size(), 5U);
+}
+
+v1::UpdateJobRequest NoteOf(const std::string& note, const std::string& path = "note") {
+  v1::UpdateJobRequest request;
+  request.mutable_job()->set_note(note);
+  request.mutable_update_mask()->add_paths(path);
+  return request;
+}
+
+TEST(ToRemark, ChangesWhatTheMaskNamesOrWhatIsThere) {
+  v1::UpdateJobRequest request = NoteOf("x");
+  (*request.mutable_job()->mutable_labels())["a"] = "b";
+  EXPECT_FALSE(ToRemark(request).value().labels);
+  EXPECT_EQ(ToRemark(request).value().note, "x");
+  request.clear_update_mask();
+  EXPECT_EQ(ToRemark(request).value().labels, (JobLabels{{"a", "b"}}));
+  request.mutable_job()->clear_note();
+  EXPECT_FALSE(ToRemark(request).value().note);
+  request.mutable_update_mask()->add_paths("*");
+  EXPECT_EQ(ToRemark(request).value().note, "");
+}
+
+TEST(ToRemark, TakesNotesUpToTheirLimit) {
+  std::string longest;
+  for (int i = 0; i < 1000; ++i) longest += i % 50 == 49 ? "\n" : "ε";
+  EXPECT_TRUE(ToRemark(NoteOf(longest)).ok());
+  for (const std::string& note : {longest + "x", std::string("\033[2J"), std::string("a\rb"),
+                                  std::string("a\0b", 3), std::string("\u202e")}) {
+    EXPECT_THAT(Fields(ToRemark(NoteOf(note)).error().violations), ElementsAre("note"));
+  }
+}
+
+TEST(ToRemark, NamesAllViolationsAtOnce) {
+  v1::UpdateJobRequest request = NoteOf("\a", "*");
+  (*request.mutable_job()->mutable_labels())["a b"] = "";
+  request.mutable_update_mask()->add_paths("state");
+  EXPECT_THAT(Fields(ToRemark(request).error().violations),
+              ElementsAre("update_mask", "labels[a b]", "note"));
+  EXPECT_THAT(Fields(ToRemark({}).error().violations), ElementsAre("update_mask"));
 }
 
 TEST(ToQuery, HasDefaultsAndLimits) {

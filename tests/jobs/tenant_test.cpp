@@ -37,6 +37,14 @@ class TenantJobsTest : public JobsTest {
     manager_->Cancel(caller, request, result.callback());
     return Reason(result.Get());
   }
+  std::string NoteAs(const Principal& caller, const std::string& name) {
+    v1::UpdateJobRequest request;
+    request.mutable_job()->set_name(name);
+    request.mutable_job()->set_note("by " + caller.name);
+    Await<Result<v1::Job>> result;
+    manager_->Update(caller, request, result.callback());
+    return Reason(result.Get());
+  }
   std::string DeleteAs(const Principal& caller, const std::string& name) {
     v1::DeleteJobRequest request;
     request.set_name(name);
@@ -116,6 +124,10 @@ TEST_F(TenantJobsTest, OnlyOwnerAndOperatorChangeAJob) {
   EXPECT_EQ(CancelAs(kBob, first), "PERMISSION_DENIED");
   EXPECT_EQ(CancelAs(kAda, first), "");
   EXPECT_EQ(CancelAs(kBoss, second), "");
+  EXPECT_EQ(NoteAs(kBob, second), "PERMISSION_DENIED");
+  EXPECT_EQ(NoteAs(kEveAsAdmin, second), "JOB_NOT_FOUND");
+  EXPECT_EQ(NoteAs(kAda, second), "");
+  EXPECT_EQ(NoteAs(kBoss, second), "");
   EXPECT_EQ(DeleteAs(kBob, second), "PERMISSION_DENIED");
   for (const Principal& owner : {kAda, kBoss}) {
     const std::string& name = owner.name == "ada" ? first : second;

@@ -118,11 +118,14 @@ class NodeTest(ServerTest):
         let cells = 0;
         for await (const {{sweep_cell}} of client.watch(sweep.name, ['sweep_cell'])) cells += Boolean(sweep_cell);
         console.log(cells, (await client.cancel(sweep.name)).state);
+        const noted = await client.update(name, {{note: 'good'}});
+        const bare = await client.update(name, {{labels: {{}}}});
+        console.log(noted.labels.study, bare.note, Object.keys(bare.labels).length);
         await client.delete(name);
         let copied = 0;
         for await (const part of client.backup()) copied += part.length;
         console.log(copied > 1000);""")
-        self.assertRegex(printed, r"^1 true\n0\.15\d+\n\d+\.\d+\.\d+\n\d+\ntrue\ntrue\n2 SUCCEEDED\ntrue\n$")
+        self.assertRegex(printed, r"^1 true\n0\.15\d+\n\d+\.\d+\.\d+\n\d+\ntrue\ntrue\n2 SUCCEEDED\nchain good 0\ntrue\n$")
 
     def test_all_that_is_wrong_is_told_with_what_is_expected(self):
         printed = self.run_program("""

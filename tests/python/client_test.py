@@ -139,6 +139,8 @@ class ClientTest(ServerTest):
                 listed = [job.name async for job in client.jobs(states=["SUCCEEDED"])]
                 checked = await client.validate("two-balls")
                 waited = await client.wait(run.job)
+                noted = await client.update(run.job, note="good")
+                self.assertEqual(noted.note, "good")
                 await client.delete(run.job)
                 return run, sweep, listed, checked, waited
 
@@ -374,6 +376,20 @@ class ClientTest(ServerTest):
         with self.assertRaises(JobNotFound) as caught:
             self.client.get(second)
         self.assertEqual(caught.exception.reason, "JOB_NOT_FOUND")
+
+    def test_labels_and_note_change_one_without_the_other(self):
+        run = self.client.run(three_ball_chain(), labels={"law": "a"})
+        self.assertEqual(self.client.update(run, note="good").labels, {"law": "a"})
+        self.assertEqual(self.client.update("last", labels={"n": "1"}).note, "good")
+        jobs = self.client.list(labels={"n": "1"})
+        self.assertEqual(list(jobs.note), ["good"])
+        self.assertEqual(self.client.update(jobs.iloc[0], labels={}, note="").labels, {})
+        with self.assertRaisesRegex(ValueError, "labels, note or both"):
+            self.client.update(run)
+        with self.assertRaisesRegex(TypeError, "labels are texts"):
+            self.client.update(run, labels={"n": 1})
+        with self.assertRaisesRegex(CallError, "note: has 1001 characters"):
+            self.client.update(run, note="ε" * 1001)
 
     def test_cancelled_job_is_no_result_but_keeps_what_it_recorded(self):
         job = self.client.submit(endless())

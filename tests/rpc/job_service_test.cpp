@@ -62,6 +62,13 @@ TEST(JobServiceTest, UnknownJobIsNotFoundByName) {
   }
   {
     grpc::ClientContext context;
+    v1::UpdateJobRequest request;
+    request.mutable_job()->set_name("jobs/none");
+    request.mutable_job()->set_note("x");
+    answers.push_back(server.stub().UpdateJob(&context, request, &job));
+  }
+  {
+    grpc::ClientContext context;
     v1::DeleteJobRequest request;
     request.set_name("jobs/none");
     google::protobuf::Empty nothing;

@@ -60,6 +60,8 @@ class StoreCopyTest : public EveryStoreTest {
     job->add_cycles()->set_mu(0.1 + 0.2);
     const std::vector<v1::Event> events = {StateEvent(v1::Job::SUCCEEDED)};
     ASSERT_TRUE(Update({.name = job->name(), .job = job, .events = events}).ok());
+    ASSERT_TRUE(
+        Remark({.name = job->name(), .labels = JobLabels{{"law", "x"}}, .note = "good"}).ok());
   }
 
   // All that a store tells of its jobs, as text.

@@ -143,6 +143,11 @@ class StoreTest : public testing::Test {
     Open();
     return bytes;
   }
+  absl::Status Remark(const JobRemark& remark) {
+    Await<absl::StatusOr<JobOwner>> result;
+    store_->Remark(remark, result.callback());
+    return result.Get().status();
+  }
   absl::Status Delete(const std::string& name, const std::string& expected_uid = "") {
     Await<absl::StatusOr<JobOwner>> result;
     store_->Delete(name, expected_uid, result.callback());

@@ -175,6 +175,49 @@ TEST_P(StoreCallsTest, WishToCancelIsRemembered) {
   EXPECT_TRUE(Read("jobs/a")->cancel_requested);
 }
 
+TEST_P(StoreCallsTest, LabelsAndNoteOfARemarkAreThoseOfTheJob) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a"), "request").ok());
+  ASSERT_TRUE(Remark({.name = "jobs/a", .labels = JobLabels{{"law", "x"}}, .note = "β"}).ok());
+  ASSERT_TRUE(Remark({.name = "jobs/a", .note = "two\nlines"}).ok());
+  v1::Job ended = MakeJob("jobs/a");  // What a run that knows nothing of it writes.
+  ended.set_state(v1::Job::SUCCEEDED);
+  ASSERT_TRUE(Update({.name = "jobs/a", .job = &ended}).ok());
+  Open();
+  for (const JobPart part : {JobPart::kHeader, JobPart::kSpec, JobPart::kRun, JobPart::kAll}) {
+    const v1::Job job = Read("jobs/a", part)->job;
+    EXPECT_EQ(JobLabels(job.labels().begin(), job.labels().end()), (JobLabels{{"law", "x"}}));
+    EXPECT_EQ(job.note(), "two\nlines");
+  }
+  EXPECT_THAT(Names(*List({.labels = {{"law", "x"}}})), ElementsAre("jobs/a"));
+  EXPECT_THAT(Names(*List({.labels = {{"study", "a"}}})), ElementsAre());
+  v1::Job again = MakeJob("jobs/a");
+  again.set_name("jobs/b");
+  EXPECT_EQ(Create(again, "request")->job.note(), "two\nlines") << "the same request";
+}
+
+TEST_P(StoreCallsTest, RemarkMayTakeEverythingAway) {
+  Open();
+  ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());
+  ASSERT_TRUE(Remark({.name = "jobs/a", .labels = JobLabels{}, .note = "x"}).ok());
+  ASSERT_TRUE(Remark({.name = "jobs/a", .note = ""}).ok());
+  EXPECT_EQ(Read("jobs/a")->job.labels_size(), 0);
+  EXPECT_EQ(Read("jobs/a")->job.note(), "");
+  EXPECT_EQ(Read("jobs/a")->created_labels, (JobLabels{{"study", "a"}}));
+}
+
+TEST_P(StoreCallsTest, RemarkIsOfTheJobExpectedOnly) {
+  Open();
+  v1::Job job = MakeJob("jobs/a");
+  job.set_uid("one");
+  ASSERT_TRUE(Create(job).ok());
+  const absl::Status other = Remark({.name = "jobs/a", .expected_uid = "two", .note = "x"});
+  EXPECT_TRUE(other.GetPayload(kUidPayload)) << other;
+  EXPECT_EQ(Read("jobs/a")->job.note(), "");
+  EXPECT_TRUE(Remark({.name = "jobs/a", .expected_uid = "one", .note = "x"}).ok());
+  EXPECT_TRUE(absl::IsNotFound(Remark({.name = "jobs/none", .note = "x"})));
+}
+
 TEST_P(StoreCallsTest, EventsArePagedBySize) {
   Open();
   ASSERT_TRUE(Create(MakeJob("jobs/a")).ok());

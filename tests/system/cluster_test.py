@@ -139,6 +139,22 @@ class ServingTest(ClusterTest):
         call.cancel()
         thread.join()
 
+    def test_labels_of_a_run_change_at_any_front_and_outlast_it(self):
+        one, two = self.shared.front(), self.shared.front()
+        self.shared.worker()
+        name = self.running(one)
+        call = two.stub.WatchJobs(job_service_pb2.WatchJobsRequest(labels={"law": "x"}),
+                                  timeout=PATIENCE_S)
+        one.stub.UpdateJob(job_service_pb2.UpdateJobRequest(
+            job=Job(name=name, labels={"law": "x"}, note="good")), timeout=PATIENCE_S)
+        heard = next(job for message in call for job in message.jobs)
+        self.assertEqual((heard.name, heard.note), (name, "good"))
+        two.cancel(name)  # The worker writes what it knew of the job before.
+        wait_for(lambda: one.get(name).state == Job.CANCELLED)
+        self.assertEqual((one.get(name).labels, one.get(name).note), ({"law": "x"}, "good"))
+        self.assertEqual([job.name for job in one.list(labels={"law": "x"}).jobs], [name])
+        call.cancel()
+
     def test_server_tells_of_the_whole_cluster(self):
         front = self.shared.front()
         for threads in 1, 3:
@@ -430,6 +446,7 @@ class RolesTest(ClusterTest):
                 ("a_front", "SELECT contactd.leave('nobody')"),
                 ("a_worker", "SELECT contactd.keep('page-secret', '', false)"),
                 ("a_worker", "SELECT contactd.remove_job('jobs/a', '')"),
+                ("a_worker", "SELECT contactd.remark_job('jobs/a', '', 0, '', '{}', '{}', 0, '')"),
                 ("a_worker", "SELECT contactd.list_jobs(9, '', '{}', '{}', '{}', '', 9)"),
                 ("a_launcher", "SELECT contactd.read_job('jobs/a', '', true, true, true)"),
                 ("a_launcher", "SELECT contactd.purge(1)"),

@@ -47,6 +47,9 @@ def call(channel, method, job, token=None):
         request.artifact = "cycles.csv"
     if method.name == "CreateJob":
         request.job.scenario.CopyFrom(three_ball_chain())
+    if method.name == "UpdateJob":
+        request.job.name = job
+        request.job.note = "good"
     streams = method.name in ("WatchJob", "WatchJobs", "ReadArtifact", "Backup")
     kind = channel.unary_stream if streams else channel.unary_unary
     make = kind(f"/{method.containing_service.full_name}/{method.name}",
@@ -143,6 +146,7 @@ EXPECTED = {
     "GetJob":        (OK, OK, HIDDEN, OK, NO),
     "ListJobs":      (OK, OK, OK, OK, NO),
     "CancelJob":     (OK, NO, HIDDEN, OK, NO),
+    "UpdateJob":     (OK, NO, HIDDEN, OK, NO),
     "DeleteJob":     (OK, NO, HIDDEN, OK, NO),
     "WatchJob":      (OK, OK, HIDDEN, OK, NO),
     "WatchJobs":     (OK, OK, OK, OK, NO),
@@ -223,7 +227,7 @@ class TableTest(IdentityTest):
         refused = {line["method"] for line in lines if line["code"] == "UNAUTHENTICATED"}
         self.assertEqual(len(refused), len(METHODS), "each refusal has its line")
         changes = {line["method"].rsplit("/")[-1] for line in lines if line["code"] == "OK"}
-        self.assertEqual(changes, {"CreateJob", "CancelJob", "DeleteJob"})
+        self.assertEqual(changes, {"CreateJob", "UpdateJob", "CancelJob", "DeleteJob"})
         self.assertIn("STARTED", {line["code"] for line in lines})
         right = [line for line in lines if line.get("principal") == "boss"]
         self.assertEqual({line["token"] for line in right}, {self.tokens["right"][4:12]})

@@ -9,6 +9,7 @@ import time
 import unittest
 
 import grpc
+from contact.v1 import job_service_pb2
 from contactd import (BINARY, PATIENCE_S, Job, Server, ServerTest, endless, is_cycle,
                       spring_wall, stored, three_ball_chain, to_bytes)
 
@@ -48,6 +49,20 @@ class KillTest(ServerTest):
         for name in queued:
             self.assertWholeLog(self.server.events(name))
             self.assertEqual(self.server.get(name).state, Job.SUCCEEDED)
+
+    def test_acknowledged_labels_and_notes_survive_kill_9_and_the_run_that_goes_on(self):
+        name = self.server.create(endless()).name
+        self.server.wait_until(name, is_cycle)
+        self.server.stub.UpdateJob(job_service_pb2.UpdateJobRequest(
+            job=Job(name=name, labels={"law": "x"}, note="good")), timeout=PATIENCE_S)
+        self.server.kill()
+        self.server.start()
+        self.server.wait_until(
+            name, lambda e: e.HasField("attempt_started") and e.attempt_started.attempt == 2)
+        self.server.cancel(name)
+        self.assertWholeLog(self.server.events(name))
+        job = self.server.get(name)
+        self.assertEqual((job.state, job.labels, job.note), (Job.CANCELLED, {"law": "x"}, "good"))
 
     def test_result_after_a_kill_is_that_of_an_undisturbed_run(self):
         scenario = spring_wall(end_time_s=0.5)

@@ -62,6 +62,51 @@ test('the list of runs turns its pages and tells how many match', async () => {
   await page.getByText('No run matches.').waitFor();
 });
 
+test('chosen runs are labelled together, and keep their other labels', async () => {
+  const ids = await Promise.all(['a', 'b'].map((own) => server.submit(BALL, {labels: {own, trial: '1'}})));
+  await open('/runs?label=trial%3D1');
+  for (const id of ids) await page.getByLabel(`choose ${id}`).check();
+  await page.getByRole('button', {name: 'Label 2 runs …'}).click();
+  const labels = page.getByRole('form', {name: 'Labels of the chosen runs'}).getByLabel('Labels');
+  await labels.fill('study=first, good');
+  await labels.press('Enter');
+  await page.getByText('good: write key=value to give a label, key- to take one away').waitFor();
+  await refuse('UpdateJob');
+  await labels.fill('study=first trial-');
+  await labels.press('Enter');
+  await page.getByText('2 of 2: The store is full.').waitFor();
+  assert.equal(await labels.inputValue(), 'study=first trial-', 'what was typed stays');
+  await page.unroute('**/UpdateJob');
+  await labels.press('Enter');
+  await page.getByText('No run matches.').waitFor();   // They have the label of the filter no more.
+  const kept = await Promise.all(ids.map((id) => server.call('GetJob', {name: `jobs/${id}`})));
+  assert.deepEqual(kept.map((job) => job.labels), [{own: 'a', study: 'first'}, {own: 'b', study: 'first'}]);
+});
+
+test('a note is written on the page of a run, stays while it is not stored, and stands in the list', async () => {
+  const id = await server.submit({...BALL, title: 'Noted'});
+  await open(`/runs/${id}`);
+  await page.getByRole('button', {name: 'Add labels or a note'}).click();
+  await page.getByRole('textbox', {name: 'Note'}).fill('Good.\nBut ε is off.');
+  await page.getByRole('textbox', {name: 'Labels'}).fill('law=x');
+  await page.reload();
+  assert.equal(await page.getByRole('textbox', {name: 'Note'}).inputValue(), 'Good.\nBut ε is off.');
+  await refuse('UpdateJob');
+  await page.getByRole('button', {name: 'Store'}).click();
+  await page.getByText('The store is full.').waitFor();
+  await page.unroute('**/UpdateJob');
+  await page.getByRole('button', {name: 'Store'}).click();
+  await page.getByRole('button', {name: 'Change labels and note'}).waitFor();
+  assert.match(await page.getByRole('region', {name: 'Labels and note'}).innerText(), /law=x\s+Good\.\nBut ε is off\./);
+  await open('/runs?q=off');
+  await page.locator('.runs').getByText('Good. …').waitFor();
+  await page.goto(`${server.origin}/runs/${id}`);
+  await page.getByRole('button', {name: 'Change labels and note'}).click();
+  await page.getByRole('textbox', {name: 'Note'}).fill('');
+  await page.getByRole('button', {name: 'Drop changes'}).click();
+  await page.getByText('But ε is off.').waitFor();
+});
+
 test('runs are chosen by when they were created, for everybody who has the address', async () => {
   await open('/runs?after=2020-01-01T00:00Z');
   await page.getByText(/page 1 of \d+, \d+ runs/).waitFor();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,17 @@ double InSeconds(const google::protobuf::Duration& span) {
   return static_cast<double>(span.seconds()) + span.nanos() / 1e9;
 }
 
+// What people say of the job: its labels, and each line of its note.
+std::string Remarks(const v1::Job& job) {
+  std::string text = job.labels().empty() ? "" : "labels: " + OneLine(LabelsText(job)) + "\n";
+  const char* begin = "note: ";
+  for (const auto line : std::views::split(job.note(), '\n')) {
+    text += begin + OneLine(std::string(line.begin(), line.end())) + "\n";
+    begin = "      ";
+  }
+  return text;
+}
+
 // A line with priority, budget and time to live, as far as the user set them.
 std::string RequestedOptions(const v1::Job& job) {
   std::vector<std::string> parts;
@@ -115,7 +128,8 @@ std::string Balances(const v1::Job& job, const Style& style) {
 }  // namespace
 
 std::string RenderJob(const v1::Job& job, const Style& style) {
-  std::string text = Title(job, style) + Wrap(Busy(job) + RequestedOptions(job), style) +
+  std::string text = Title(job, style) +
+                     Wrap(Busy(job) + RequestedOptions(job) + Remarks(job), style) +
                      ErrorLine(job, style) + RenderLedger(job, style) + RenderGroups(job, style) +
                      Bodies(job, style) + Balances(job, style);
   if (job.has_sweep()) {
@@ -129,6 +143,13 @@ std::string RenderJob(const v1::Job& job, const Style& style) {
 
 const std::string& TitleOf(const v1::Job& job) {
   return job.title().empty() ? job.scenario().title() : job.title();
+}
+
+std::string LabelsText(const v1::Job& job) {
+  const std::map<std::string, std::string> sorted(job.labels().begin(), job.labels().end());
+  std::vector<std::string> labels;
+  for (const auto& [key, value] : sorted) labels.push_back(fmt::format("{}={}", key, value));
+  return fmt::format("{}", fmt::join(labels, ", "));
 }
 
 std::string StateText(v1::Job::State state, const std::string& reason, const Style& style) {

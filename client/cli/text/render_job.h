@@ -7,12 +7,15 @@
 
 namespace contact::cli {
 
-/// A job for people: state, ledger, final bodies, balances, warnings. `style.columns` selects
-/// columns of the ledger; the table of bodies always has all.
+/// A job for people: state, labels and note, ledger, final bodies, balances, warnings.
+/// `style.columns` selects columns of the ledger; the table of bodies always has all.
 std::string RenderJob(const v1::Job& job, const Style& style);
 
 /// The title of a job, also of one from a server of an earlier version; empty if it has none.
 const std::string& TitleOf(const v1::Job& job);
+
+/// Its labels, `key=value, key=value`, in the order of their keys; empty if it has none.
+std::string LabelsText(const v1::Job& job);
 
 /// A state in its colour, and in parentheses the reason for it unless that is empty.
 std::string StateText(v1::Job::State state, const std::string& reason, const Style& style);

@@ -1,16 +1,23 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "cli/base/message.h"
 #include "cli/link/connect.h"
 #include "cli/link/find_job.h"
+#include "cli/link/job_names.h"
 #include "cli/link/job_source.h"
 #include "cli/settings/column_choice.h"
 #include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
+#include "cli/text/render_job.h"
 #include "cli/text/render_ledger.h"
 #include "cli/verbs/job/follow.h"
+#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {
@@ -68,6 +75,81 @@ ExitCode Delete(const std::string& job, const Settings& settings) {
   return ExitCode::kOk;
 }
 
+struct LabelArguments {
+  std::vector<std::string> words;
+  std::optional<std::string> note;
+};
+
+// What the words of a line ask for. No job is named with `=` or a last `-`.
+struct LabelChange {
+  std::vector<std::string> jobs;
+  std::map<std::string, std::string> set;
+  std::vector<std::string> removed;
+
+  bool empty() const { return set.empty() && removed.empty(); }
+};
+
+LabelChange ReadWords(const std::vector<std::string>& words) {
+  LabelChange change;
+  std::vector<std::string> set;
+  for (const std::string& word : words) {
+    if (word.find('=') != std::string::npos) {
+      set.push_back(word);
+    } else if (word.ends_with('-')) {
+      change.removed.push_back(word.substr(0, word.size() - 1));
+    } else {
+      change.jobs.push_back(word);
+    }
+  }
+  change.set = ParseLabels(set);
+  return change;
+}
+
+// The request for a job as it is now.
+v1::UpdateJobRequest Request(const v1::Job& now, const LabelChange& change,
+                             const std::optional<std::string>& note) {
+  v1::UpdateJobRequest request;
+  v1::Job& job = *request.mutable_job();
+  job.set_name(now.name());
+  request.set_expected_uid(now.uid());
+  if (!change.empty()) {
+    request.mutable_update_mask()->add_paths("labels");
+    *job.mutable_labels() = now.labels();
+    for (const std::string& key : change.removed) job.mutable_labels()->erase(key);
+    for (const auto& [key, value] : change.set) (*job.mutable_labels())[key] = value;
+  }
+  if (note) {
+    request.mutable_update_mask()->add_paths("note");
+    job.set_note(*note);
+  }
+  return request;
+}
+
+ExitCode Label(const LabelArguments& arguments, const Settings& settings) {
+  settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
+  const LabelChange change = ReadWords(arguments.words);
+  if (change.jobs.empty()) throw Failure(ExitCode::kUsage, "give a job to label");
+  if (change.empty() && !arguments.note) {
+    throw Failure(ExitCode::kUsage, "say what to change: KEY=VALUE, KEY- or --note TEXT");
+  }
+  Client client = Connect(settings);
+  std::vector<v1::Job> jobs;  // All of them before the first is changed: one may not be there.
+  for (const std::string& job : change.jobs) jobs.push_back(GetJob(client, FindJob(client, job)));
+  for (const v1::Job& job : jobs) {
+    const v1::Job answer =
+        client.Call(&Client::Stub::UpdateJob, Request(job, change, arguments.note));
+    const bool table = settings.output == OutputFormat::kTable;
+    const std::string labels = LabelsText(answer);
+    fmt::print("{}{}\n", answer.name(),
+               table ? "  " + (labels.empty() ? "no labels" : labels) : "");
+  }
+  return ExitCode::kOk;
+}
+
+constexpr char kAboutLabel[] =
+    R"(KEY=VALUE gives a label or changes it, KEY- takes it away; the other labels stay. The jobs may wait,
+run or have ended. list --label KEY=VALUE finds them; describe shows labels and note.)";
+
 // Makes `act` the action of a command whose only argument is a job.
 void AddJobAction(CommandLine& line, CLI::App& command,
                   ExitCode (*act)(const std::string&, const Settings&)) {
@@ -90,6 +172,19 @@ void AddDescribe(CommandLine& line, CLI::App& describe) {
 }
 
 void AddCancel(CommandLine& line, CLI::App& cancel) { AddJobAction(line, cancel, Cancel); }
+
+void AddLabel(CommandLine& line, CLI::App& command) {
+  auto arguments = std::make_shared<LabelArguments>();
+  command.footer(kAboutLabel);
+  AddOption(line, command, "JOB", &arguments->words, ValueKind::kJob,
+            "Jobs, then KEY=VALUE and KEY-. " + std::string(kJobAbout))
+      ->required();
+  command
+      .add_option("--note", arguments->note,
+                  "What to write about the jobs, in place of what is there; '' for nothing")
+      ->type_name("TEXT");
+  line.SetAction(command, arguments, Label);
+}
 
 void AddDelete(CommandLine& line, CLI::App& command) { AddJobAction(line, command, Delete); }
 

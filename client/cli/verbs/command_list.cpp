@@ -72,13 +72,6 @@ v1::ListJobsResponse ListAll(Client& client, const ListArguments& arguments) {
   return all;
 }
 
-std::string Labels(const v1::Job& job) {
-  std::vector<std::string> labels;
-  for (const auto& [key, value] : job.labels()) labels.push_back(fmt::format("{}={}", key, value));
-  std::ranges::sort(labels);
-  return fmt::format("{}", fmt::join(labels, ", "));
-}
-
 std::string Convergence(const v1::Job& job) {
   return job.convergence() == v1::Job::CONVERGENCE_UNSPECIFIED
              ? "-"
@@ -113,7 +106,7 @@ std::vector<Table::Cell> ListRow(const v1::Job& job) {
           MissedCount(job),
           Instant(job.create_time()),
           Instant(job.end_time()),
-          Labels(job),
+          LabelsText(job),
           fmt::to_string(job.progress().cycles()),
           fmt::to_string(job.attempt())};
 }

@@ -14,7 +14,7 @@ from contact.v1 import event_pb2, job_pb2, job_service_pb2, job_service_pb2_grpc
 
 from . import pages
 from .calls import (PAGE, TRIES, address_of, create_request, deadline_of, ended, labels_of,
-                    open_channel)
+                    open_channel, update_request)
 from .downloading import Download
 from .errors import CallError, RunFailed, from_rpc
 from .finding import JobLike, Search, job_frame, list_request
@@ -251,8 +251,8 @@ class AsyncClient:
         """The jobs, newest first: a row a job, indexed by its name; by default all.
 
         Columns: `title`, `kind` (scenario or sweep), `state`, `convergence`, `reason`, `created` and
-        `ended` in UTC, `owner`, `labels`. `states` are words such as `SUCCEEDED`; jobs have one of
-        them, all the labels, and a name that begins so. A row names its job:
+        `ended` in UTC, `owner`, `labels`, `note`. `states` are words such as `SUCCEEDED`; jobs
+        have one of them, all the labels, and a name that begins so. A row names its job:
         `client.result(client.list().iloc[0])`.
         """
         jobs: list[job_pb2.Job] = []
@@ -295,6 +295,14 @@ class AsyncClient:
         """Asks a job to stop; what it recorded is kept."""
         request = job_service_pb2.CancelJobRequest(name=await self._find(job))
         answer: job_pb2.Job = await self._call(self._stub.CancelJob, request)
+        return answer
+
+    async def update(self, job: JobLike, *, labels: Mapping[str, str] | None = None,
+                     note: str | None = None) -> job_pb2.Job:
+        """Gives a job, in whatever state, these labels in place of all that it has, and this note;
+        what is None stays. `client.update(job, labels={**job.labels, "law": "x"})` adds one."""
+        request = update_request(await self._find(job), labels, note)
+        answer: job_pb2.Job = await self._call(self._stub.UpdateJob, request)
         return answer
 
     async def delete(self, job: JobLike) -> None:

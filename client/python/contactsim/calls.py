@@ -79,6 +79,16 @@ def create_request(scenario: ScenarioLike, set_: Mapping[str, Any] | None,
     return job_service_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
 
 
+def update_request(name: str, labels: Mapping[str, str] | None,
+                   note: str | None) -> job_service_pb2.UpdateJobRequest:
+    """The request that changes what is not None. Raises ValueError if that is nothing."""
+    if labels is None and note is None:
+        raise ValueError("say what to change: labels, note or both")
+    job = job_pb2.Job(name=name, labels=labels_of(labels), note=note or "")
+    paths = [path for path, value in (("labels", labels), ("note", note)) if value is not None]
+    return job_service_pb2.UpdateJobRequest(job=job, update_mask={"paths": paths})
+
+
 def labels_of(labels: Mapping[str, str] | None) -> Mapping[str, str] | None:
     """The labels of a job. Raises TypeError unless they are texts by texts."""
     if labels is not None and not isinstance(labels, Mapping):

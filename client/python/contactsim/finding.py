@@ -17,7 +17,8 @@ _WHOLE = 10  # Characters of the IDs that a server gives.
 _MOST_BACK = 999  # One page of a list has so many jobs and one more.
 _CANDIDATES = 10
 _LAST = re.compile(r"last(?:~(.*))?", re.S)
-_COLUMNS = ("title", "kind", "state", "convergence", "reason", "created", "ended", "owner", "labels")
+_COLUMNS = ("title", "kind", "state", "convergence", "reason", "created", "ended", "owner", "labels",
+            "note")
 
 
 class Named(Protocol):
@@ -120,7 +121,7 @@ def _row(job: job_pb2.Job) -> tuple[Any, ...]:
     return (job.title, _kind(job), job_pb2.Job.State.Name(job.state),
             job_pb2.Job.Convergence.Name(job.convergence) if job.convergence else "",
             job.state_reason, _time(job, "create_time"), _time(job, "end_time"), job.owner,
-            dict(job.labels))
+            dict(job.labels), job.note)
 
 
 def _kind(job: job_pb2.Job) -> str:

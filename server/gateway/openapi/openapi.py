@@ -55,6 +55,7 @@ _SCALARS = {
 _WELL_KNOWN = {
     ".google.protobuf.Timestamp": {"type": "string", "format": "date-time"},
     ".google.protobuf.Duration": {"type": "string", "pattern": r"^-?[0-9]+(\.[0-9]{1,9})?s$"},
+    ".google.protobuf.FieldMask": {"type": "string", "description": "Names with commas between."},
     ".google.protobuf.Empty": {"type": "object", "additionalProperties": False},
     ".google.protobuf.Any": {"type": "object", "properties": {"@type": {"type": "string"}},
                              "required": ["@type"]},

@@ -50,7 +50,8 @@ class JobFeed {
   /// True if there are readers.
   bool watched();
 
-  /// A job of the tenant was created, changed its state, or was deleted; and that is stored.
+  /// A job of the tenant was created, changed its state, labels or note, or was deleted; and that
+  /// is stored.
   void Changed(const std::string& tenant, const std::string& name);
 
  private:

@@ -8,9 +8,9 @@ namespace {
 
 // Jobs in a message.
 constexpr int kMostJobs = 100;
-// Bytes that the header of a job has if it has many labels. A few hundred are usual: the first
-// message finds out.
-constexpr std::size_t kLargeJob = 4 << 10;
+// Bytes that the header of a job has if it has many labels and a long note. A few hundred are
+// usual: the first message finds out.
+constexpr std::size_t kLargeJob = 8 << 10;
 
 }  // namespace
 
@@ -118,8 +118,7 @@ StreamStep JobsCursor::TakeFetched(v1::WatchJobsResponse* out) {
   }
   fetch_ = nullptr;
   for (StoredJob& stored : page.jobs) {
-    if (!HasLabels(stored.job)) continue;
-    if (HasState(stored.job)) {
+    if (HasState(stored.job) && HasLabels(stored.job)) {
       complete_(&stored);
       *out->add_jobs() = std::move(stored.job);
     } else {

@@ -45,7 +45,7 @@ Result<JobQuery> ToQuery(const v1::ListJobsRequest& request, std::int64_t before
   CheckPrefix(request.name_prefix(), &violations);
   query.name_prefix = request.name_prefix();
   CheckLabels(request.labels(), &violations);
-  query.labels.assign(request.labels().begin(), request.labels().end());
+  query.labels = {request.labels().begin(), request.labels().end()};
   if (!violations.empty()) return Invalid(std::move(violations));
   return query;
 }

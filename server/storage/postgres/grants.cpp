@@ -17,8 +17,8 @@ using Functions = absl::Span<const char* const>;
 constexpr std::array kShared = {"schema_version", "read_job", "read_events", "positions_of",
                                 "moved_since",    "count_of", "demand",      "change_job",
                                 "request_cancel", "purge"};
-constexpr std::array kOfFront = {"create_job", "remove_job", "compact_job", "owner_of",
-                                 "bytes_of",   "list_jobs",  "job_sizes",   "keep"};
+constexpr std::array kOfFront = {"create_job", "remove_job", "compact_job", "owner_of",  "bytes_of",
+                                 "list_jobs",  "job_sizes",  "keep",        "remark_job"};
 constexpr std::array kOfWorker = {"beat",      "claim",       "leave",       "lend",
                                   "take_loan", "return_loan", "refuse_loan", "settle_loans"};
 constexpr std::array kOfLauncher = {"demand"};

@@ -27,6 +27,13 @@ constexpr std::array kSteps = {
     Step{5,
          "CREATE TABLE IF NOT EXISTS contactd.kept(name text COLLATE \"C\" PRIMARY KEY, value "
          "bytea NOT NULL);"},
+    // People may say more of a job than when they created it.
+    Step{6,
+         "ALTER TABLE contactd.jobs"
+         " ADD COLUMN labels_crc32 bigint NOT NULL DEFAULT -1,"
+         " ADD COLUMN labels bytea NOT NULL DEFAULT '',"
+         " ADD COLUMN note_crc32 bigint NOT NULL DEFAULT -1,"
+         " ADD COLUMN note bytea NOT NULL DEFAULT '';"},
 };
 
 // The lock is held to the end, so that of several programs that begin at once one does it. Tables

@@ -76,6 +76,22 @@ class PostgresStore : public SharedStore {
         std::move(done));
   }
 
+  void Remark(JobRemark remark, Callback<JobOwner> done) override {
+    Statement statement = postgres::RemarkJob(remark);
+    Post<JobOwner>(
+        std::move(statement),
+        [this, name = std::move(remark.name)](const Rows& rows) {
+          auto whose = postgres::Remarked(rows, name);
+          if (whose.ok()) {
+            Tell({.name = name,
+                  .tenant = whose->tenant,
+                  .state = static_cast<int>(rows.Integer(0, 4))});
+          }
+          return whose;
+        },
+        std::move(done));
+  }
+
   void Read(std::string name, JobPart part, Callback<StoredJob> done) override {
     Statement statement = postgres::ReadJob(name, std::nullopt, part);
     PostRead(std::move(statement), std::move(name), std::move(done));

@@ -29,7 +29,11 @@ CREATE TABLE contactd.jobs(
   priority bigint NOT NULL DEFAULT 0,
   cells bigint NOT NULL DEFAULT 0,
   worker text COLLATE "C",
-  moved xid8 NOT NULL DEFAULT pg_current_xact_id()
+  moved xid8 NOT NULL DEFAULT pg_current_xact_id(),
+  labels_crc32 bigint NOT NULL DEFAULT -1,
+  labels bytea NOT NULL DEFAULT '',
+  note_crc32 bigint NOT NULL DEFAULT -1,
+  note bytea NOT NULL DEFAULT ''
 ) WITH (fillfactor=70, autovacuum_vacuum_scale_factor=0.02, autovacuum_vacuum_threshold=200);
 CREATE INDEX jobs_by_tenant ON contactd.jobs(tenant, number);
 CREATE INDEX jobs_by_owner ON contactd.jobs(tenant, owner);
@@ -139,13 +143,15 @@ CREATE OR REPLACE FUNCTION contactd.read_job(
 RETURNS TABLE(
   number bigint, name text, state smallint, epoch bigint, cancel_requested boolean,
   last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
-  owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
-  checkpoint bytea, checkpoint_sequence bigint, result_crc32 bigint, result bytea)
+  owner text, tenant text, request_id text, labels_crc32 bigint, labels bytea, note_crc32 bigint,
+  note bytea, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint, checkpoint bytea,
+  checkpoint_sequence bigint, result_crc32 bigint, result bytea)
 LANGUAGE plpgsql AS $$
 BEGIN
   RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence,
-      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32,
-      s.spec, c.crc32, c.state, c.sequence, r.crc32, r.result
+      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id,
+      j.labels_crc32, j.labels, j.note_crc32, j.note, s.crc32, s.spec, c.crc32, c.state, c.sequence,
+      r.crc32, r.result
     FROM contactd.jobs j
       LEFT JOIN contactd.specs s ON a_spec AND s.job = j.number
       LEFT JOIN contactd.checkpoints c ON a_checkpoint AND c.job = j.number
@@ -392,6 +398,34 @@ LANGUAGE plpgsql AS $$
 BEGIN
   UPDATE contactd.jobs j SET cancel_requested = true WHERE j.name = a_name;
   RETURN CASE WHEN FOUND THEN 'D' ELSE 'N' END;
+END $$;
+
+-- Replaces labels or note of a job, with their checksums; NULL: as before. Outcomes: D done; N no
+-- such job; U its uid is another, `job_uid`.
+CREATE OR REPLACE FUNCTION contactd.remark_job(
+  a_name text, a_uid text, a_labels_crc32 bigint, a_labels bytea, a_label_keys text[],
+  a_label_values text[], a_note_crc32 bigint, a_note bytea,
+  OUT outcome text, OUT job_owner text, OUT job_tenant text, OUT job_uid text, OUT job_state bigint)
+LANGUAGE plpgsql AS $$
+DECLARE
+  v_job bigint;
+BEGIN
+  SELECT j.number, j.owner, j.tenant, j.uid, j.state
+    INTO v_job, job_owner, job_tenant, job_uid, job_state
+    FROM contactd.jobs j WHERE j.name = a_name FOR UPDATE;
+  outcome := CASE WHEN v_job IS NULL THEN 'N' WHEN a_uid <> '' AND job_uid <> a_uid THEN 'U'
+    ELSE 'D' END;
+  IF outcome <> 'D' THEN RETURN; END IF;
+  UPDATE contactd.jobs j SET moved = pg_current_xact_id(),
+      labels_crc32 = coalesce(a_labels_crc32, j.labels_crc32),
+      labels = coalesce(a_labels, j.labels),
+      note_crc32 = coalesce(a_note_crc32, j.note_crc32),
+      note = coalesce(a_note, j.note)
+    WHERE j.number = v_job;
+  IF a_labels IS NULL THEN RETURN; END IF;
+  DELETE FROM contactd.labels l WHERE l.job = v_job;
+  INSERT INTO contactd.labels(key, value, job)
+    SELECT l.key, l.value, v_job FROM unnest(a_label_keys, a_label_values) AS l(key, value);
 END $$;
 
 -- Removes an ended job; its events only vanish from sight, `purge` removes them. Outcomes: D done;

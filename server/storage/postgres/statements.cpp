@@ -30,11 +30,15 @@ StoredJob HeaderOf(const Rows& rows, int row, int first = 0) {
                    .compacted = rows.Integer(row, column(9)) != 0,
                    .owner = rows.Bytes(row, column(10)),
                    .tenant = rows.Bytes(row, column(11)),
-                   .request_key = rows.Bytes(row, column(12))});
+                   .request_key = rows.Bytes(row, column(12)),
+                   .labels_crc32 = rows.Integer(row, column(13)),
+                   .labels = rows.Bytes(row, column(14)),
+                   .note_crc32 = rows.Integer(row, column(15)),
+                   .note = rows.Bytes(row, column(16))});
 }
 
 // Of the columns of read_job.
-constexpr int kSpecColumn = 13;
+constexpr int kSpecColumn = 17;
 constexpr int kCheckpointColumn = kSpecColumn + 2;
 constexpr int kResultColumn = kCheckpointColumn + 3;
 
@@ -43,7 +47,7 @@ void MergeRunParts(const Rows& rows, int row, int first, StoredJob* stored) {
   const int spec = first + kSpecColumn;
   const int checkpoint = first + kCheckpointColumn;
   if (!rows.IsNull(row, spec)) {
-    MergePart(rows.Bytes(row, spec + 1), rows.Integer(row, spec), stored);
+    MergeSpec(rows.Bytes(row, spec + 1), rows.Integer(row, spec), stored);
   }
   if (!rows.IsNull(row, checkpoint)) {
     AddCheckpoint(rows.Bytes(row, checkpoint + 1), rows.Integer(row, checkpoint),
@@ -63,15 +67,30 @@ absl::StatusOr<StoredJob> WholeOf(const Rows& rows, int first) {
   return IfIntact(std::move(stored));
 }
 
+void AddLabels(const JobLabels& labels, Parameters* parameters) {
+  std::vector<std::string> keys, values;
+  for (const auto& [key, value] : labels) {
+    keys.push_back(key);
+    values.push_back(value);
+  }
+  parameters->Texts(keys).Texts(values);
+}
+
 char OutcomeOf(const Rows& rows) { return rows.Bytes(0, 0).front(); }
 
-// The owner of a row with outcome, owner and tenant, if it is D.
+// The owner of a row with outcome, owner, tenant and, where the outcome may be U, uid; if it is D.
 absl::StatusOr<JobOwner> IfDone(const Rows& rows, const std::string& name) {
   switch (OutcomeOf(rows)) {
     case 'D':
       return JobOwner{rows.Bytes(0, 1), rows.Bytes(0, 2)};
     case 'R':
       return HasNotEnded(name);
+    case 'U': {
+      v1::Job other;
+      other.set_name(name);
+      other.set_uid(rows.Bytes(0, 3));
+      return OtherJob(other);
+    }
     default:
       return NoSuchJob(name);
   }
@@ -82,7 +101,7 @@ absl::StatusOr<JobOwner> IfDone(const Rows& rows, const std::string& name) {
 // In the order of read_job.
 const char kHeader[] =
     "number, name, state, epoch, cancel_requested, last_sequence, crc32, header, oldest_sequence,"
-    " compacted, owner, tenant, request_id";
+    " compacted, owner, tenant, request_id, labels_crc32, labels, note_crc32, note";
 
 // Only the database knows their sequences, so their checksums have none.
 void AddEvents(const std::string& job, const std::vector<EventRow>& events,
@@ -101,11 +120,6 @@ void AddEvents(const std::string& job, const std::vector<EventRow>& events,
 }
 
 Statement CreateJob(const JobInsert& job) {
-  std::vector<std::string> keys, values;
-  for (const auto& [key, value] : job.labels) {
-    keys.push_back(key);
-    values.push_back(value);
-  }
   const JobParts& parts = job.parts;
   Parameters parameters;
   parameters.Bytes(job.name).Bytes(job.uid);
@@ -116,7 +130,8 @@ Statement CreateJob(const JobInsert& job) {
   }
   parameters.Bytes(job.whose.owner).Bytes(job.whose.tenant).Integer(job.state);
   parameters.Integer(parts.end_time).Integer(Checksum(parts.header)).Bytes(parts.header);
-  parameters.Integer(Checksum(parts.spec, 0, job.name)).Bytes(parts.spec).Texts(keys).Texts(values);
+  parameters.Integer(Checksum(parts.spec, 0, job.name)).Bytes(parts.spec);
+  AddLabels(job.labels, &parameters);
   AddEvents(job.name, job.events, &parameters);
   parameters.Boolean(job.may_create).Integer(job.max_owner_bytes);
   parameters.Integer(job.priority).Integer(job.cells).Integer(job.limits.waiting);
@@ -203,6 +218,28 @@ absl::StatusOr<bool> Done(const Rows& rows, const std::string& name) {
   return true;
 }
 
+Statement RemarkJob(const JobRemark& remark) {
+  Parameters parameters;
+  parameters.Bytes(remark.name).Bytes(remark.expected_uid);
+  if (remark.labels) {
+    std::string bytes = BytesOf(*remark.labels);
+    parameters.Integer(Checksum(bytes, 0, remark.name)).Bytes(std::move(bytes));
+  } else {
+    parameters.Null().Null();
+  }
+  AddLabels(remark.labels.value_or(JobLabels{}), &parameters);
+  if (remark.note) {
+    parameters.Integer(Checksum(*remark.note, 0, remark.name)).Bytes(*remark.note);
+  } else {
+    parameters.Null().Null();
+  }
+  return {"SELECT * FROM contactd.remark_job($1,$2,$3,$4,$5,$6,$7,$8)", std::move(parameters)};
+}
+
+absl::StatusOr<JobOwner> Remarked(const Rows& rows, const std::string& name) {
+  return IfDone(rows, name);
+}
+
 Statement ReadJob(const std::string& name, std::optional<std::string> tenant, JobPart part) {
   Parameters parameters;
   parameters.Bytes(name);
@@ -236,11 +273,6 @@ Statement SumBytes(const JobOwner& whose) {
 }
 
 Statement ListJobs(const JobQuery& query) {
-  std::vector<std::string> keys, values;
-  for (const auto& [key, value] : query.labels) {
-    keys.push_back(key);
-    values.push_back(value);
-  }
   Parameters parameters;
   parameters.Integer(query.before > 0 ? query.before : INT64_MAX);
   if (query.tenant) {
@@ -248,7 +280,8 @@ Statement ListJobs(const JobQuery& query) {
   } else {
     parameters.Null();
   }
-  parameters.Integers({query.states.begin(), query.states.end()}).Texts(keys).Texts(values);
+  parameters.Integers({query.states.begin(), query.states.end()});
+  AddLabels(query.labels, &parameters);
   parameters.Bytes(query.name_prefix).Integer(query.limit + 1);
   return {absl::StrCat("SELECT ", kHeader, " FROM contactd.list_jobs($1,$2,$3,$4,$5,$6,$7)"),
           std::move(parameters)};
@@ -333,11 +366,7 @@ Statement RemoveJob(const std::string& name, const std::string& expected_uid) {
 }
 
 absl::StatusOr<JobOwner> Removed(const Rows& rows, const std::string& name) {
-  if (OutcomeOf(rows) != 'U') return IfDone(rows, name);
-  v1::Job other;
-  other.set_name(name);
-  other.set_uid(rows.Bytes(0, 3));
-  return OtherJob(other);
+  return IfDone(rows, name);
 }
 
 Statement CompactJob(const std::string& name) {

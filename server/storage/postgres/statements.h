@@ -36,6 +36,10 @@ absl::StatusOr<std::uint64_t> Changed(const Rows& rows, const std::string& name)
 Statement RequestCancel(const std::string& name);
 absl::StatusOr<bool> Done(const Rows& rows, const std::string& name);
 
+/// See Store::Remark. After a change the fifth column is the state of the job.
+Statement RemarkJob(const JobRemark& remark);
+absl::StatusOr<JobOwner> Remarked(const Rows& rows, const std::string& name);
+
 /// See Store::Read and Store::ReadOf.
 Statement ReadJob(const std::string& name, std::optional<std::string> tenant, JobPart part);
 absl::StatusOr<StoredJob> JobOf(const Rows& rows, const std::string& name);

@@ -106,8 +106,9 @@ CREATE OR REPLACE FUNCTION contactd.claim(
 RETURNS TABLE(
   number bigint, name text, state smallint, epoch bigint, cancel_requested boolean,
   last_sequence bigint, crc32 bigint, header bytea, oldest_sequence bigint, compacted boolean,
-  owner text, tenant text, request_id text, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint,
-  checkpoint bytea, checkpoint_sequence bigint)
+  owner text, tenant text, request_id text, labels_crc32 bigint, labels bytea, note_crc32 bigint,
+  note bytea, spec_crc32 bigint, spec bytea, checkpoint_crc32 bigint, checkpoint bytea,
+  checkpoint_sequence bigint)
 LANGUAGE plpgsql SET enable_seqscan = off AS $$
 DECLARE
   c_lost CONSTANT bigint := 64;
@@ -153,8 +154,8 @@ BEGIN
     EXIT WHEN v_left = v_before;
   END LOOP;
   RETURN QUERY SELECT j.number, j.name, j.state, j.epoch, j.cancel_requested, j.last_sequence,
-      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id, s.crc32,
-      s.spec, c.crc32, c.state, c.sequence
+      j.crc32, j.header, j.oldest_sequence, j.compacted, j.owner, j.tenant, j.request_id,
+      j.labels_crc32, j.labels, j.note_crc32, j.note, s.crc32, s.spec, c.crc32, c.state, c.sequence
     FROM contactd.jobs j
       LEFT JOIN contactd.specs s
         ON s.job = j.number AND j.state = 1 AND octet_length(s.spec) <= a_spec_bytes

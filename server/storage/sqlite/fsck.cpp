@@ -13,6 +13,7 @@
 #include "contact/v1/job.pb.h"
 #include "storage/checksum.h"
 #include "storage/job_parts.h"
+#include "storage/rows.h"
 #include "storage/sqlite/data_directory.h"
 #include "storage/sqlite/row_checksum.h"
 #include "storage/sqlite/schema.h"
@@ -83,7 +84,8 @@ class Checker {
     Check("jobs",
           absl::StrCat("SELECT number, name, state, last_sequence, bytes, crc32, header,"
                        " oldest_sequence, owner, tenant, end_time, row_crc32=",
-                       kRowChecksum, " FROM jobs ORDER BY number"),
+                       kRowChecksum,
+                       ", labels_crc32, labels, note_crc32, note FROM jobs ORDER BY number"),
           &Checker::CheckJob);
     Check("labels", "SELECT job, key, value FROM labels", &Checker::KeepLabel);
     Check("specs", "SELECT job, crc32, spec FROM specs", &Checker::CheckSpec);
@@ -104,7 +106,8 @@ class Checker {
     std::int64_t oldest_sequence = 1;
     std::int64_t last_sequence = 0;
     std::int64_t bytes = 0;
-    std::map<std::string, std::string> labels;
+    JobLabels labels;                   // Those by which it is found.
+    std::optional<JobLabels> remarked;  // Those of a remark.
     std::string title;
     bool has_spec = false;
     std::int64_t found_sequence = 0;
@@ -152,6 +155,18 @@ class Checker {
       Find(job.name, ": the job is not what its row says");
     }
     job.title = message.title();
+    if (row.Integer(12) != kNoRemark) CheckLabels(row.Integer(12), row.Bytes(13), &job);
+    if (row.Integer(14) != kNoRemark && !Passes(row.Integer(14), row.Bytes(15), job.name)) {
+      Find(job.name, ": its note fails its checksum");
+    }
+  }
+
+  void CheckLabels(std::int64_t crc32, const std::string& bytes, Job* job) {
+    v1::Job said;
+    if (!Passes(crc32, bytes, job->name) || !said.ParseFromString(bytes)) {
+      return Find(job->name, ": its labels fail their checksum");
+    }
+    job->remarked.emplace(said.labels().begin(), said.labels().end());
   }
 
   void KeepLabel(Row row) {
@@ -163,8 +178,10 @@ class Checker {
     v1::Job spec;
     Job* job = CheckPart("spec", row, &spec);
     if (job == nullptr) return;
-    const std::map<std::string, std::string> labels(spec.labels().begin(), spec.labels().end());
-    if (labels != job->labels) Find(job->name, ": its labels are not those of its spec");
+    const JobLabels created(spec.labels().begin(), spec.labels().end());
+    if (job->remarked.value_or(created) != job->labels) {
+      Find(job->name, ": its labels are not those that it was given");
+    }
     if (TitleOf(spec) != job->title) Find(job->name, ": its spec is that of another job");
   }
 

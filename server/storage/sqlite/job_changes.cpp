@@ -53,6 +53,20 @@ void WriteParts(Database& database, std::int64_t job, const JobChange& change) {
           Checksum(parts.result, 0, change.name), Query::Blob{parts.result});
 }
 
+void InsertLabels(Database& database, std::int64_t job, const JobLabels& labels) {
+  for (const auto& [key, value] : labels) {
+    Execute(database, "INSERT INTO labels(key, value, job) VALUES(?,?,?)", key, value, job);
+  }
+}
+
+void ReplaceLabels(Database& database, std::int64_t job, const JobRemark& remark) {
+  const std::string bytes = BytesOf(*remark.labels);
+  Execute(database, "UPDATE jobs SET labels_crc32=?, labels=? WHERE number=?",
+          Checksum(bytes, 0, remark.name), Query::Blob{bytes}, job);
+  Execute(database, "DELETE FROM labels WHERE job=?", job);
+  InsertLabels(database, job, *remark.labels);
+}
+
 void InsertJob(Database& database, const JobInsert& insert) {
   const JobParts& parts = insert.parts;
   Execute(database,
@@ -64,9 +78,7 @@ void InsertJob(Database& database, const JobInsert& insert) {
   const std::int64_t job = database.LastInsertRowid();
   Execute(database, "INSERT INTO specs(job, crc32, spec) VALUES(?,?,?)", job,
           Checksum(parts.spec, 0, insert.name), Query::Blob{parts.spec});
-  for (const auto& [key, value] : insert.labels) {
-    Execute(database, "INSERT INTO labels(key, value, job) VALUES(?,?,?)", key, value, job);
-  }
+  InsertLabels(database, job, insert.labels);
   Seal(database, job);
   InsertEvents(database, job, 0, insert.events, insert.name);
 }
@@ -77,6 +89,14 @@ absl::Status CheckOwnerBytes(Database& database, const JobInsert& insert) {
   const std::int64_t bytes = OwnerBytes(database, insert.whose);
   if (bytes < insert.max_owner_bytes) return absl::OkStatus();
   return TooMuch(kOwnerBytesPayload, bytes);
+}
+
+// Whether the job has this uid, if that is not empty.
+absl::Status CheckUid(Database& database, const std::string& name, const std::string& uid) {
+  if (uid.empty()) return absl::OkStatus();
+  const absl::StatusOr<StoredJob> stored = Read(database, name, JobPart::kHeader);
+  if (!stored.ok()) return stored.status();
+  return stored->job.uid() == uid ? absl::OkStatus() : OtherJob(stored->job);
 }
 
 // A job that has ended.
@@ -143,13 +163,24 @@ absl::Status MarkCancelRequested(Database& database, const std::string& name) {
   return absl::OkStatus();
 }
 
+absl::StatusOr<JobOwner> Remark(Database& database, const JobRemark& remark) {
+  Query job(database, "SELECT number, owner, tenant FROM jobs WHERE name=?", remark.name);
+  if (!job.Next()) return NoSuchJob(remark.name);
+  if (absl::Status same = CheckUid(database, remark.name, remark.expected_uid); !same.ok()) {
+    return same;
+  }
+  const std::int64_t number = job.Integer(0);
+  if (remark.labels) ReplaceLabels(database, number, remark);
+  if (remark.note) {
+    Execute(database, "UPDATE jobs SET note_crc32=?, note=? WHERE number=?",
+            Checksum(*remark.note, 0, remark.name), Query::Blob{*remark.note}, number);
+  }
+  return JobOwner{job.Bytes(1), job.Bytes(2)};
+}
+
 absl::StatusOr<JobOwner> Remove(Database& database, const std::string& name,
                                 const std::string& expected_uid) {
-  if (!expected_uid.empty()) {
-    const absl::StatusOr<StoredJob> stored = Read(database, name, JobPart::kHeader);
-    if (!stored.ok()) return stored.status();
-    if (stored->job.uid() != expected_uid) return OtherJob(stored->job);
-  }
+  if (absl::Status same = CheckUid(database, name, expected_uid); !same.ok()) return same;
   const absl::StatusOr<EndedRow> job = FindEnded(database, name);
   if (!job.ok()) return job.status();
   Execute(database, "INSERT INTO removed(job) VALUES(?)", job->number);

@@ -26,6 +26,9 @@ absl::StatusOr<std::uint64_t> Change(Database& database, const JobChange& change
 /// Remembers that a user wants the job cancelled: see Store::RequestCancel.
 absl::Status MarkCancelRequested(Database& database, const std::string& name);
 
+/// Replaces labels or note of a job: see Store::Remark.
+absl::StatusOr<JobOwner> Remark(Database& database, const JobRemark& remark);
+
 /// Removes an ended job: see Store::Delete. Its events only vanish from sight; Purge removes them.
 absl::StatusOr<JobOwner> Remove(Database& database, const std::string& name,
                                 const std::string& expected_uid);

@@ -20,7 +20,8 @@ namespace {
 std::string SelectJob() {
   return absl::StrCat(
       "SELECT number, name, state, epoch, cancel_requested, last_sequence, crc32, header,"
-      " oldest_sequence, compacted, owner, tenant, request_id, row_crc32=",
+      " oldest_sequence, compacted, owner, tenant, request_id, labels_crc32, labels, note_crc32,"
+      " note, row_crc32=",
       kRowChecksum, " FROM jobs ");
 }
 
@@ -44,7 +45,11 @@ JobRow RowOf(const Query& query) {
                          .owner = query.Bytes(10),
                          .tenant = query.Bytes(11),
                          .request_key = query.Bytes(12),
-                         .sealed = query.Integer(13) != 0});
+                         .labels_crc32 = query.Integer(13),
+                         .labels = query.Bytes(14),
+                         .note_crc32 = query.Integer(15),
+                         .note = query.Bytes(16),
+                         .sealed = query.Integer(17) != 0});
   return row;
 }
 
@@ -58,7 +63,7 @@ StoredEvent EventOf(const Query& query, const std::string& job) {
 // Adds the spec, if there is one.
 void ReadSpec(Database& database, JobRow& row) {
   Query query(database, "SELECT crc32, spec FROM specs WHERE job=?", row.number);
-  if (query.Next()) MergePart(query.Bytes(1), query.Integer(0), &row.stored);
+  if (query.Next()) MergeSpec(query.Bytes(1), query.Integer(0), &row.stored);
 }
 
 void ReadResult(Database& database, JobRow& row) {

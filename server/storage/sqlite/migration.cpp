@@ -45,6 +45,14 @@ void SealRows(SQLite::Database& connection) {
   connection.exec(absl::StrCat("UPDATE jobs SET row_crc32=", kRowChecksum));
 }
 
+// From 7: people may say more of a job than when they created it.
+constexpr char kToVersion8[] = R"sql(
+ALTER TABLE jobs ADD COLUMN labels_crc32 INTEGER NOT NULL DEFAULT -1;
+ALTER TABLE jobs ADD COLUMN labels BLOB NOT NULL DEFAULT x'';
+ALTER TABLE jobs ADD COLUMN note_crc32 INTEGER NOT NULL DEFAULT -1;
+ALTER TABLE jobs ADD COLUMN note BLOB NOT NULL DEFAULT x'';
+)sql";
+
 // SQL function: the end of the job with this header in Unix seconds; 0 if it does not tell.
 void EndTimeOf(sqlite3_context* context, int, sqlite3_value** arguments) {
   v1::Job job;
@@ -97,6 +105,7 @@ void Migrate(SQLite::Database& connection, int version) {
   if (version < 5) connection.exec(kToVersion5);
   if (version < 6) SealRows(connection);
   // From 6: new rows have the name of their job in their checksum. Old ones stay as they are.
+  if (version < 8) connection.exec(kToVersion8);
   connection.exec(absl::StrCat("PRAGMA user_version=", kSchemaVersion));
   transaction.commit();
 }

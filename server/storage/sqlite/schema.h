@@ -7,7 +7,7 @@ namespace contact {
 
 /// Version of the tables below, kept in PRAGMA user_version of the database. A change of the tables
 /// raises it by 1 and adds a step to migration.cpp.
-inline constexpr int kSchemaVersion = 7;
+inline constexpr int kSchemaVersion = 8;
 
 /// SQL condition on a row of jobs: the job has ended, so its state is one of those below.
 inline constexpr char kEnded[] = "state IN (3,4,5)";
@@ -31,7 +31,11 @@ CREATE TABLE jobs(
   compacted INTEGER NOT NULL DEFAULT 0,
   owner TEXT NOT NULL DEFAULT 'local',
   tenant TEXT NOT NULL DEFAULT 'local',
-  row_crc32 INTEGER NOT NULL DEFAULT 0
+  row_crc32 INTEGER NOT NULL DEFAULT 0,
+  labels_crc32 INTEGER NOT NULL DEFAULT -1,
+  labels BLOB NOT NULL DEFAULT x'',
+  note_crc32 INTEGER NOT NULL DEFAULT -1,
+  note BLOB NOT NULL DEFAULT x''
 ) STRICT;
 CREATE INDEX jobs_by_state ON jobs(state, number);
 CREATE INDEX jobs_by_tenant ON jobs(tenant, number);

@@ -36,6 +36,7 @@ class SqliteStore : public Store {
   using Store::Update;
   void Update(Encoded change, std::uint64_t epoch, Callback<std::uint64_t> done) override;
   void RequestCancel(std::string name, Callback<bool> done) override;
+  void Remark(JobRemark remark, Callback<JobOwner> done) override;
   void Read(std::string name, JobPart part, Callback<StoredJob> done) override;
   void ReadOf(std::string tenant, std::string name, JobPart part,
               Callback<StoredJob> done) override;
@@ -89,6 +90,12 @@ void SqliteStore::Update(Encoded change, std::uint64_t epoch, Callback<std::uint
 void SqliteStore::RequestCancel(std::string name, Callback<bool> done) {
   Post([name = std::move(name)](
            Database& database) { return Done(MarkCancelRequested(database, name)); },
+       std::move(done));
+}
+
+void SqliteStore::Remark(JobRemark remark, Callback<JobOwner> done) {
+  Post([remark =
+            std::move(remark)](Database& database) { return contact::Remark(database, remark); },
        std::move(done));
 }
 

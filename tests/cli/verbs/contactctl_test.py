@@ -300,8 +300,8 @@ class ExitCodeTest(CliTest):
         self.assertEqual(said, f"{file}:3:1: bodies: holds 4; must hold at most 3\n1 error\n")
 
     def test_unknown_job_is_6(self):
-        for command in ("describe", "watch", "wait", "cancel", "delete"):
-            _, said = self.run_it(command, "nosuchjob", code=6)
+        for command in (["describe"], ["watch"], ["wait"], ["cancel"], ["delete"], ["label", "n=1"]):
+            _, said = self.run_it(*command, "nosuchjob", code=6)
             self.assertIn("JOB_NOT_FOUND", said)
 
     def test_unknown_kind_is_2(self):

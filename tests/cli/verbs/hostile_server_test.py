@@ -93,7 +93,7 @@ class HostileServerTest(unittest.TestCase):
     VERBS = (
         ("list",), ("list", "-o", "wide"), ("list", "-o", "csv"), ("describe", JOB),
         ("watch", JOB), ("submit", CHAIN), ("run", CHAIN), ("run", "--like", JOB),
-        ("cancel", JOB), ("delete", JOB), ("series", JOB), ("series", JOB, "-o", "csv"),
+        ("cancel", JOB), ("delete", JOB), ("label", JOB, "n=1"), ("series", JOB), ("series", JOB, "-o", "csv"),
         ("artifact", "list", JOB), ("export", JOB, "-o", "csv", "--table", "cycles"),
         ("sweep", "describe", JOB), ("sweep", "export", JOB), ("sweep", "cell", JOB, "0"),
         ("server", "status"), ("doctor",), ("open", JOB), ("compare", JOB, JOB),

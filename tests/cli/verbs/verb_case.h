@@ -148,6 +148,12 @@ class ScriptedServer final : public v1::JobService::Service {
     const auto lock = Keep(*request);
     return Find(request->name(), job);
   }
+  grpc::Status UpdateJob(grpc::ServerContext*, const v1::UpdateJobRequest* request,
+                         v1::Job* job) override {
+    const auto lock = Keep(*request);
+    *job = request->job();
+    return grpc::Status::OK;
+  }
   grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request,
                          google::protobuf::Empty*) override {
     const auto lock = Keep(*request);

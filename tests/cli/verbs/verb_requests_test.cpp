@@ -123,6 +123,7 @@ TEST_F(VerbRequestsTest, EachVerbTakesTheFirstLettersOfAJob) {
                                                 {"watch", "eh"},
                                                 {"wait", "eh"},
                                                 {"cancel", "eh"},
+                                                {"label", "eh", "n=1"},
                                                 {"delete", "eh"},
                                                 {"series", "eh"},
                                                 {"artifact", "list", "eh"},
@@ -145,6 +146,42 @@ TEST_F(VerbRequestsTest, CancelTellsWhetherTheJobStillRuns) {
   EXPECT_EQ(Run({"cancel", "a"}).printed, "jobs/a  asked to stop\n");
   EXPECT_EQ(Run({"cancel", "jobs/b"}).printed, "jobs/b  CANCELLED\n");
   EXPECT_EQ(Run({"cancel", "a", "-o", "name"}).printed, "jobs/a\n");
+}
+
+TEST_F(VerbRequestsTest, LabelChangesThoseThatItNamesAndKeepsTheOthers) {
+  v1::Job& a = server_.Add("jobs/a", v1::Job::RUNNING);
+  a.set_uid("of a");
+  for (const auto& [key, value] : {std::pair("law", "x"), {"n", "1"}, {"trial", ""}}) {
+    (*a.mutable_labels())[key] = value;
+  }
+  server_.Add("jobs/b", v1::Job::SUCCEEDED);
+  EXPECT_EQ(Run({"label", "a", "b", "law=y=z", "trial-"}).printed,
+            "jobs/a  law=y=z, n=1\njobs/b  law=y=z\n");
+  const auto asked = server_.Asked<v1::UpdateJobRequest>();
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_THAT(asked[0].update_mask().paths(), ElementsAre("labels"));
+  EXPECT_EQ(asked[0].expected_uid(), "of a");
+  EXPECT_EQ(Run({"label", "a", "law-", "n-", "trial-"}).printed, "jobs/a  no labels\n");
+  EXPECT_EQ(Run({"label", "a", "b", "c", "n=2"}).code, ExitCode::kNotFound);
+  EXPECT_EQ(server_.Asked<v1::UpdateJobRequest>().size(), 3U) << "none, as one is not there";
+}
+
+TEST_F(VerbRequestsTest, NoteReplacesTheNoteAlone) {
+  server_.Add("jobs/a", v1::Job::SUCCEEDED);
+  const auto asked = Asked<v1::UpdateJobRequest>({"label", "a", "--note", "two\nlines"});
+  EXPECT_THAT(asked.update_mask().paths(), ElementsAre("note"));
+  EXPECT_EQ(asked.job().note(), "two\nlines");
+  EXPECT_EQ(Run({"label", "a", "-o", "name", "--note", ""}).printed, "jobs/a\n");
+  EXPECT_THAT(server_.Asked<v1::UpdateJobRequest>().back().update_mask().paths(),
+              ElementsAre("note"));
+}
+
+TEST_F(VerbRequestsTest, DescribeShowsLabelsAndEachLineOfTheNote) {
+  v1::Job& job = server_.Add("jobs/a", v1::Job::SUCCEEDED);
+  job.set_note("good\n\nbut \033[2J");
+  (*job.mutable_labels())["law"] = "x";
+  EXPECT_THAT(Run({"describe", "a"}).printed,
+              HasSubstr("labels: law=x\nnote: good\n      \n      but ?[2J\n"));
 }
 
 TEST_F(VerbRequestsTest, DeleteNamesTheJobInFull) {

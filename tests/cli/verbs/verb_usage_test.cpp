@@ -109,6 +109,8 @@ TEST(VerbUsageTest, WatchRefusesSpeedsAndPlotsThatCannotBe) {
 }
 
 TEST(VerbUsageTest, StateAndLabelsAreChecked) {
+  ExpectUsage({"label", "x"}, "say what to change: KEY=VALUE, KEY- or --note TEXT");
+  ExpectUsage({"label", "n=1"}, "give a job to label");
   ExpectUsage({"list", "--state", "runing"}, "did you mean 'RUNNING'?");
   ExpectUsage({"list", "--state", "gone"}, "one of QUEUED, RUNNING, SUCCEEDED, FAILED, CANCELLED");
   ExpectUsage({"list", "--columns", "ownr"}, "there is no column");

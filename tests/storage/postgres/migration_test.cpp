@@ -67,13 +67,14 @@ class PostgresMigrationTest : public StoreTest, public testing::WithParamInterfa
     return texts;
   }
 
-  // The rows of all tables.
+  // The rows of all tables; of a job without the columns of version 6 that nobody has filled.
   std::set<std::string> Everything() {
     std::set<std::string> rows;
     for (const std::string& table : Texts("SELECT tablename::text FROM pg_tables WHERE"
                                           " schemaname = 'contactd' AND tablename <> 'version'")) {
       rows.merge(
-          Texts(absl::StrCat("SELECT '", table, " ' || t::text FROM contactd.", table, " t")));
+          Texts(absl::StrCat("SELECT '", table, " ' || replace(t::text, '",
+                             R"(,-1,"\\x",-1,"\\x"))", "', ')') FROM contactd.", table, " t")));
     }
     return rows;
   }
@@ -254,7 +255,7 @@ TEST_P(PostgresMigrationTest, RoleThatOwnsNothingIsToldToMigrateUntilItHasItsRig
   EXPECT_TRUE(role.Open(database_).ok());
 }
 
-INSTANTIATE_TEST_SUITE_P(FromVersion, PostgresMigrationTest, testing::Values(1, 2, 3, 4),
+INSTANTIATE_TEST_SUITE_P(FromVersion, PostgresMigrationTest, testing::Values(1, 2, 3, 4, 5),
                          testing::PrintToStringParamName());
 
 // A database that has a version has its tables and functions. Once a version is in use, another
@@ -263,7 +264,7 @@ TEST(PostgresSchemaTest, VersionNamesOneSchema) {
   const std::string schema = absl::StrCat(postgres::kTables, postgres::kFunctions,
                                           postgres::kReaderFunctions, postgres::kWorkerFunctions);
   EXPECT_EQ(std::pair(postgres::kSchemaVersion, Checksum(schema)),
-            std::pair(5, std::int64_t{627026967}));
+            std::pair(6, std::int64_t{2310670383}));
 }
 
 }  // namespace

@@ -376,6 +376,11 @@ TEST_F(SharedStoreTest, MovedJobsAreFoundWithoutNotes) {
   const auto stored = one_.Create(Job("a"));
   const MovedJobs first = moved(0);
   EXPECT_THAT(first.jobs, IsEmpty());
+  ASSERT_TRUE(one_.Ask<JobOwner>([](SharedStore& store, auto done) {
+                    store.Remark({.name = "jobs/a", .note = "x"}, std::move(done));
+                  })
+                  .ok());
+  EXPECT_EQ(moved(first.next).jobs.size(), 1U) << "as its note did";
   ASSERT_TRUE(one_.Move(*stored, v1::Job::CANCELLED).ok());
   const MovedJobs second = moved(first.next);
   ASSERT_EQ(second.jobs.size(), 1U);

@@ -110,7 +110,20 @@ TEST_F(FsckTest, ColumnsThatNoChecksumCoversAreComparedWithTheJob) {
   EXPECT_THAT(After("UPDATE jobs SET end_time=1 WHERE number=1"),
               ElementsAre("jobs/a: the job is not what its row says"));
   EXPECT_THAT(After("UPDATE labels SET value='x' WHERE job=2"),
-              Contains("jobs/b: its labels are not those of its spec"));
+              Contains("jobs/b: its labels are not those that it was given"));
+}
+
+TEST_F(FsckTest, LabelsAndNoteAreThoseOfTheNewestRemark) {
+  Fill();
+  ASSERT_TRUE(Remark({.name = "jobs/a", .labels = JobLabels{{"law", "x"}}, .note = "good"}).ok());
+  store_.reset();
+  EXPECT_EQ(Check()->findings, 0);
+  EXPECT_THAT(After("UPDATE labels SET value='y' WHERE job=1"),
+              ElementsAre("jobs/a: its labels are not those that it was given"));
+  EXPECT_THAT(After("UPDATE jobs SET note=x'62' WHERE number=1"),
+              Contains("jobs/a: its note fails its checksum"));
+  EXPECT_THAT(After("UPDATE jobs SET labels=x'' WHERE number=1"),
+              Contains("jobs/a: its labels fail their checksum"));
 }
 
 TEST_F(FsckTest, WhatBelongsToAnotherJobFailsItsChecksum) {

@@ -269,7 +269,7 @@ TEST_P(MigrationTest, RowsAreSealed) {
   for (const StoredJob& job : jobs->jobs) EXPECT_FALSE(job.intact) << job.job.name();
 }
 
-INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2, 3, 4, 5, 6),
+INSTANTIATE_TEST_SUITE_P(FromVersion, MigrationTest, testing::Values(1, 2, 3, 4, 5, 6, 7),
                          testing::PrintToStringParamName());
 
 }  // namespace

@@ -64,9 +64,9 @@ export class JobList {
 
 export const NOT_CONVERGED = 'NOT_CONVERGED';
 
-/** True if all words are in the title, the name or a label of the job. */
+/** True if all words are in the title, the name, the note or a label of the job. */
 export function matches(job: Job, words: string): boolean {
-  const text = [job.title, job.name, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
+  const text = [job.title, job.name, job.note, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
     .join(' ').toLowerCase();
   return words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
 }

@@ -115,7 +115,7 @@ function lineFinder(doc: Document, counter: LineCounter): (path: string) => numb
   return (path) => {
     let at: unknown = doc.contents;
     let line = 1;
-    for (const part of partsOf(path.replace(/^base\./, ''))) {
+    for (const part of partsOf(isMap(at) && isMap(at.get('base')) ? path : path.replace(/^base\./, ''))) {
       const key = part.startsWith('[') ? Number(part.slice(1, -1)) : part;
       const pair: unknown = isMap(at) ? at.items.find((p) => String(p.key) === part) : undefined;
       const next = isPair(pair) ? pair.value : (at as {get?: (key: unknown, keep: boolean) => unknown} | null)?.get?.(key, true);   // An empty page holds null.

@@ -125,13 +125,18 @@ function drawVelocities({mechanics: {bodies}, velocities = []}: Stage, {ctx, ink
   });
 }
 
+/** How metres become px on a strip of this width. */
+export function scaleOf(stage: Stage, width: number): {scale: number; toX: (x: number) => number} {
+  const {low, high} = stage;
+  const scale = Math.min(width / (high - low), (STRIP_PX / 2 - 24) / (largestRadius(stage) || 1e-300));
+  return {scale, toX: (x) => width / 2 + (x - (low + high) / 2) * scale};
+}
+
 /** Draws the moment. */
 export function drawStrip(stage: Stage, sheet: Sheet, time: number): void {
   const {ctx, width, height, ink, theme} = sheet;
-  const {mechanics: {bodies, contacts}, low, high} = stage;
-  const largest = largestRadius(stage);
-  const scale = Math.min(width / (high - low), (height / 2 - 24) / (largest || 1e-300));
-  const toX = (x: number) => width / 2 + (x - (low + high) / 2) * scale;
+  const {mechanics: {bodies, contacts}} = stage;
+  const {scale, toX} = scaleOf(stage, width);
   const middle = height / 2 + 4;
   const places = placesAt(stage, time);
   ctx.clearRect(0, 0, width, height);

@@ -6,7 +6,7 @@ const KEYS: [string, [string, string][]][] = [
   ['Everywhere', [['?', 'these keys'], ['Esc', 'close them']]],
   ['Plots of a run', [['+ −', 'zoom in and out'], ['[ ]', 'earlier, later'], ['0', 'all the time'], ['← →', 'on the slider: move the moment whose values all plots tell']]],
   ['Cells of a sweep', [['← → ↑ ↓', 'choose a cell'], ['Enter', 'run the cell chosen'], ['↑ ↓', 'on an end of an axis: choose a range'], ['Esc', 'choose all cells again']]],
-  ['Editor of a scenario', [['Ctrl Space', 'complete a word'], ['↑ ↓ Enter', 'choose among completions']]],
+  ['Editor of a scenario', [['Ctrl Space', 'complete a word'], ['↑ ↓ Enter', 'choose among completions'], ['Ctrl Z', 'a step back, also of the form'], ['Ctrl Y', 'forward again']]],
 ];
 
 /** A button with the keys behind it; `?` opens them too, but where words are written. */

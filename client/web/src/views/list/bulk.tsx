@@ -6,6 +6,7 @@ import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import type {Job} from '../../api/generated/contact/v1/job_pb';
 import {isFinal} from '../../api/watch';
+import {labelChangeOf, relabelled} from '../../model/remarks';
 import {Twice} from '../../ui/twice';
 
 /** Calls for one run after the other; tells of those that were refused. */
@@ -17,7 +18,32 @@ async function forEach(jobs: Job[], call: (name: string) => Promise<unknown>): P
 
 const runs = (n: number) => `${n} ${n === 1 ? 'run' : 'runs'}`;
 
-/** Cancels those of the chosen runs that go on, deletes those that have ended. */
+/** Gives labels to all of them and takes others away; what is typed stays until it is done. */
+function Label({jobs, onError}: {jobs: Job[]; onError: (why: string) => void}) {
+  const [text, setText] = useState<string>();
+  const label = async (event: Event) => {
+    event.preventDefault();
+    const change = labelChangeOf(text!);
+    if (change.wrong.length > 0) { onError(`${change.wrong.join(', ')}: write key=value to give a label, key- to take one away`); return; }
+    const byName = new Map(jobs.map((job) => [job.name, job]));
+    const why = await forEach(jobs, (name) => {
+      const job = byName.get(name)!;
+      return server.updateJob({job: {name, labels: relabelled(job, change)}, updateMask: {paths: ['labels']}, expectedUid: job.uid});
+    });
+    onError(why);
+    if (!why) setText(undefined);
+  };
+  if (text === undefined) return <button type="button" onClick={() => setText('')}>Label {runs(jobs.length)} …</button>;
+  return (
+    <form class="group" aria-label="Labels of the chosen runs" onSubmit={(e) => void label(e)}>
+      <label>Labels <input value={text} autofocus placeholder="key=value, key-" spellcheck={false} onInput={(e) => setText(e.currentTarget.value)} /></label>
+      <button type="submit" class="primary" disabled={text.trim() === ''}>Label {runs(jobs.length)}</button>
+      <button type="button" onClick={() => setText(undefined)}>Leave</button>
+    </form>
+  );
+}
+
+/** Labels the chosen runs, cancels those that go on, deletes those that have ended. */
 export function Bulk({jobs, gone}: {jobs: Job[]; gone: (jobs: Job[]) => void}) {
   const [error, setError] = useState('');
   const ended = jobs.filter(({state}) => isFinal(state));
@@ -29,6 +55,7 @@ export function Bulk({jobs, gone}: {jobs: Job[]; gone: (jobs: Job[]) => void}) {
   };
   return (
     <>
+      {jobs.length > 0 && <Label jobs={jobs} onError={setError} />}
       {active.length > 0 && <Twice key={`cancel ${active.length}`} first={`Cancel ${runs(active.length)} …`} then="Cancel them for good" stay="Go on" act={() => void cancel()} />}
       {ended.length > 0 && <Twice key={`delete ${ended.length}`} first={`Delete ${runs(ended.length)} …`} then="Delete them for good" stay="Keep" act={() => void remove()} />}
       {error && <span role="alert">{error}</span>}

@@ -9,6 +9,7 @@ import {watchJobs} from '../../api/watch';
 import {bestOf, chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
 import type {Fields} from '../../model/job_fields';
 import {count, exact} from '../../model/numbers';
+import {noteHint} from '../../model/remarks';
 import {LinkNote} from '../../ui/link_note';
 import {setQuery, type Route} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
@@ -50,7 +51,7 @@ function Row({job, metric, best, chosen, choose, values}: {
   return (
     <tr>
       <td><input type="checkbox" aria-label={`choose ${id}`} checked={chosen} onChange={(e) => choose(e.currentTarget.checked)} /></td>
-      <td class="title"><a href={`/runs/${id}`}>{job.title || id}</a></td>
+      <td class="title"><a href={`/runs/${id}`}>{job.title || id}</a>{job.note && <div class="soft" title={job.note}>{noteHint(job.note)}</div>}</td>
       <td class="soft mono">{id}</td>
       <td><StateBadge state={job.state} convergence={job.convergence} /></td>
       <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
@@ -70,7 +71,7 @@ function Filters({query, children}: {query: URLSearchParams; children: Component
       onChange={(e) => setQuery({[key]: utcOfField(e.currentTarget.value), page: undefined})} />);
   return (
     <div class="tools" role="search">
-      <label>Find <input type="search" value={query.get('q') ?? ''} placeholder="title, name, label" onInput={change('q')} /></label>
+      <label>Find <input type="search" value={query.get('q') ?? ''} placeholder="title, name, label, note" onInput={change('q')} /></label>
       <label>State <select value={query.get('state') ?? ''} onChange={change('state')}>
         <option value="">all</option>{STATES.map((s) => <option key={s} value={s}>{s.toLowerCase().replace('_', ' ')}</option>)}
       </select></label>

@@ -13,6 +13,7 @@ import {go, setQuery, type Route} from '../../ui/route';
 import {useAsync} from '../../ui/use_async';
 import {Editor} from './editor';
 import {useText} from './use_text';
+import {useUndo} from './use_undo';
 import {jobOf, useValidation, type Verdict} from './use_validation';
 
 function Verdicts({problems, warnings, estimate, settled}: Verdict) {
@@ -58,6 +59,8 @@ function CopyAs({text, verdict, labels}: {text: string; verdict: Verdict; labels
 
 export function New({route}: {route: Route}) {
   const {text, setText, replaced, take} = useText(route);
+  const {change, undo, redo, canUndo, canRedo, press} = useUndo(text, setText);
+  const [chosen, setChosen] = useState('[]');
   const verdict = useValidation(text);
   const labels = route.query.get('labels') ?? '';
   const [error, setError] = useState('');
@@ -70,17 +73,23 @@ export function New({route}: {route: Route}) {
   };
   const from = route.query.get('from');
   const Picture = useAsync(async () => (await import('./picture')).Picture, []).value;
+  const Form = useAsync(async () => (await import('./form/form')).Form, []).value;
+  const choose = (list: 'bodies' | 'contacts', name: string) => void import('../../model/form/place').then(({placeOf}) => {
+    const place = placeOf(text, list, name);
+    if (place) setChosen(JSON.stringify(place));
+  });
   return (
     <>
       <div class="head"><h1>{from ? `Run ${from} again with changes` : 'New run'}</h1></div>
-      <div class="new">
+      <div class="new" onKeyDown={press}>
         <nav aria-label="Templates"><h2>Templates</h2><ul>{Object.keys(templates).sort().map((name) => (
           <li key={name}><button type="button" class="quiet" aria-pressed={text === templates[name]}
             onClick={() => take(name.replace('.yaml', ''))}>{titleOf(name)}</button></li>))}</ul></nav>
         <div>
           {replaced && <p class="notice" role="status">The template stands in place of what you wrote. <button type="button" onClick={() => history.back()}>Back to my text</button></p>}
-          <Editor text={text} setText={setText} problems={verdict.problems} />
-          {Picture && <Picture verdict={verdict} />}
+          <div class="tools"><button type="button" disabled={!canUndo} onClick={undo}>Undo</button><button type="button" disabled={!canRedo} onClick={redo}>Redo</button></div>
+          <Editor text={text} setText={(next) => change(next, 'editor')} problems={verdict.problems} />
+          {Picture && <Picture verdict={verdict} choose={choose} />}
           <Verdicts {...verdict} />
           {error && <p class="notice" role="alert">{error}</p>}
           <div class="tools">
@@ -89,6 +98,7 @@ export function New({route}: {route: Route}) {
             <CopyAs text={text} verdict={verdict} labels={labelsOf(labels)} />
           </div>
         </div>
+        {Form && <Form text={text} change={change} problems={verdict.problems} chosen={chosen} choose={setChosen} />}
       </div>
     </>
   );

@@ -13,6 +13,7 @@ import {go} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
 import {Twice} from '../../ui/twice';
 import {elapsed, partOf} from '../elapsed';
+import {Remarks} from './remarks';
 
 function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (why: string) => void}) {
   const name = `jobs/${id}`;
@@ -53,6 +54,7 @@ export function Header({id, run}: {id: string; run: RunState}) {
       {!ended && progress?.busyWith && <p class="soft">busy: {progress.busyWith}</p>}
       {run.message && <p class="notice" role="status">{run.reason}: {run.message}</p>}
       {job && <p class="facts soft">jobs/{id} · {elapsed(job, progress)}{job.summary ? ` · ${count(job.summary.cycles)} cycles${cutOf(job.summary)}, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
+      {job && <Remarks key={job.name} job={job} />}
       {(job?.warnings ?? []).map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
     </>
   );

@@ -1,0 +1,68 @@
+// Labels and note of a run, and their changing. What is typed is kept until it is stored or dropped.
+
+import {useEffect, useState} from 'preact/hooks';
+
+import {server} from '../../api/client';
+import {explain} from '../../api/errors';
+import type {Job} from '../../api/generated/contact/v1/job_pb';
+import {labelChangeOf, labelsText, MOST_NOTE, type Labels} from '../../model/remarks';
+
+interface Said {
+  labels: Labels;
+  note: string;
+}
+
+const draftKey = (name: string) => `remarks ${name}`;
+
+/** What was typed and not stored, also before the page was left. */
+function draftOf(name: string): {labels: string; note: string} | undefined {
+  const kept = sessionStorage.getItem(draftKey(name));
+  return kept === null ? undefined : JSON.parse(kept) as {labels: string; note: string};
+}
+
+export function Remarks({job}: {job: Job}) {
+  const {name} = job;
+  const [said, setSaid] = useState<Said>(job);
+  const [draft, setDraft] = useState(() => draftOf(name));
+  const [error, setError] = useState('');
+  useEffect(() => setSaid(job), [job.name, job.note, JSON.stringify(job.labels)]);
+  useEffect(() => {
+    if (draft) sessionStorage.setItem(draftKey(name), JSON.stringify(draft));
+    else sessionStorage.removeItem(draftKey(name));
+  }, [name, draft]);
+  const fail = (why: unknown) => setError(explain(why));
+  const begin = () => {
+    setError('');
+    setDraft({labels: labelsText(said.labels), note: said.note});
+    server.getJob({name}).then((newest) => {   // Others may have changed it since.
+      setSaid(newest);
+      setDraft((now) => (now?.labels === labelsText(said.labels) && now.note === said.note ? {labels: labelsText(newest.labels), note: newest.note} : now));
+    }, fail);
+  };
+  const store = (event: Event) => {
+    event.preventDefault();
+    const {set, removed, wrong} = labelChangeOf(draft!.labels);   // All of them: one goes when it is not written.
+    const none = [...wrong, ...removed.map((key) => `${key}-`)];
+    if (none.length > 0) { setError(`${none.join(', ')}: write labels as key=value`); return; }
+    server.updateJob({job: {name, labels: set, note: draft!.note}, updateMask: {paths: ['labels', 'note']}, expectedUid: job.uid}).then(
+      (newest) => { setSaid(newest); setDraft(undefined); setError(''); }, fail);
+  };
+  if (!draft) {
+    return (
+      <section class="remarks" aria-label="Labels and note">
+        {Object.entries(said.labels).map(([key, value]) => <span key={key} class="label">{key}={value}</span>)}
+        {said.note && <p class="said">{said.note}</p>}
+        <button type="button" class="quiet" onClick={begin}>{said.note || Object.keys(said.labels).length > 0 ? 'Change labels and note' : 'Add labels or a note'}</button>
+      </section>
+    );
+  }
+  return (
+    <form class="remarks" aria-label="Labels and note" onSubmit={store}>
+      <label>Labels <input value={draft.labels} placeholder="key=value, …" spellcheck={false} onInput={(e) => setDraft({...draft, labels: e.currentTarget.value})} /></label>
+      <label>Note <textarea value={draft.note} rows={Math.min(Math.max(draft.note.split('\n').length + 1, 3), 12)} maxLength={MOST_NOTE} onInput={(e) => setDraft({...draft, note: e.currentTarget.value})} /></label>
+      <span class="group"><button type="submit" class="primary">Store</button>
+        <button type="button" onClick={() => { setDraft(undefined); setError(''); }}>Drop changes</button></span>
+      {error && <p class="bad" role="alert">{error}</p>}
+    </form>
+  );
+}
