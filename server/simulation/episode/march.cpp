@@ -31,7 +31,7 @@ Sight March::Look(const Ids& since) {
   return problem_.March({}, {.since = since,
                              .slopes = coarse_,
                              .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
-                             .miss = kSearch.ahead_miss,
+                             .miss = ahead_,
                              .guess_from = guess_from_});
 }
 
@@ -66,6 +66,7 @@ March::Ids March::Note(const Sight& sight) {
 March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
+  ahead_ = kSearch.ahead_miss;
   guess_from_ = 0;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
@@ -80,7 +81,7 @@ March::End March::Solve(bool rejected) {
     changed = Note(sight);
     if (!changed.empty() && round < kSearch.rounds / 2) continue;
     const Timeline timeline = Read(sight);
-    const GroupSight* miss = timeline.FirstMiss(kSearch.ahead_miss);
+    const GroupSight* miss = timeline.FirstMiss(ahead_);
     if (miss == nullptr && TakeUp()) continue;
     if (sight.exact &&
         timeline.FirstMiss(problem_.tolerance()) == miss) {  // All before it is solved.
@@ -134,14 +135,19 @@ bool March::IsDue(const Sight& sight, const GroupSight* miss) const {
 
 // Whether what is polished is all up to the first instant at which no cycle runs.
 bool March::MayBeAll(const Sight& sight, const GroupSight* miss) const {
-  return miss == nullptr && !rejected_ && !sight.crowded && sight.pause == Motion::Pause::kQuiet &&
+  return miss == nullptr && !rejected_ && sight.pause == Motion::Pause::kQuiet && SeesAll(sight);
+}
+
+// Whether every group has ended for good.
+bool March::SeesAll(const Sight& sight) {
+  return !sight.crowded &&
          std::ranges::all_of(sight.groups, [](const auto& g) { return g.separated || !g.sought; });
 }
 
 // Solves all that was solved ahead to the scenario's tolerance.
 std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* miss) {
   const Timeline timeline = Read(sight);
-  const Ids open = timeline.Solved(problem_.tolerance(), kSearch.ahead_miss);
+  const Ids open = timeline.Solved(problem_.tolerance(), ahead_);
   const bool all = MayBeAll(sight, miss);
   const auto worst = [&] {
     double most = 0;
@@ -204,7 +210,8 @@ void March::Settle(const Ids& ids) {
 // Solves the first group that misses with what overlaps it, well enough to go on.
 void March::Advance(const Sight& sight, const GroupSight& miss) {
   coarse_ = true;
-  SolveFirst(sight, miss, kSearch.ahead_miss, Precision::kAhead);
+  ahead_ = SeesAll(sight) ? kSearch.last_miss : kSearch.ahead_miss;
+  SolveFirst(sight, miss, ahead_, Precision::kAhead);
   if (next_ == std::nullopt) coarse_ = true;
 }
 
@@ -265,7 +272,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   coarse_ = ahead;
   next_.reset();
   steps_ = 0;
-  Block block(problem_, log_, ids, ahead, kSearch.ahead_miss);
+  Block block(problem_, log_, ids, ahead, ahead_);
   const Eigen::VectorXd before = block.Mu();
   std::vector<bool> corrected;
   for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);

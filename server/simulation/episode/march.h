@@ -48,6 +48,7 @@ class March {
   End Recorded(const Sight& sight, const GroupSight* miss) const;
   std::optional<End> Polish(const Sight& sight, const GroupSight* miss);
   bool IsDue(const Sight& sight, const GroupSight* miss) const;
+  static bool SeesAll(const Sight& sight);
   bool MayBeAll(const Sight& sight, const GroupSight* miss) const;
   void Advance(const Sight& sight, const GroupSight& miss);
   Hybrid::End SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
@@ -70,6 +71,7 @@ class March {
   Growing& growing_;
   Bisection& bisection_;
   bool rejected_ = false;
+  double ahead_ = 0;           // The miss to which blocks are solved ahead.
   bool coarse_ = true;         // The next pass that looks may be.
   double guess_from_ = 0;      // What begins later is guessed anew.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.

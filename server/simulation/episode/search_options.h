@@ -11,6 +11,8 @@ struct SearchOptions {
   /// that come later are seen with worse μ before them. Prototype: 1e-2 takes 1.2 times the steps,
   /// 1e-4 as many.
   double ahead_miss = 1e-3;
+  /// The same where nothing comes later: what is left falls to its square in the first exact pass.
+  double last_miss = 1e-2;
   /// Relative tolerance of the passes that go ahead. Passes as exact as the scenario asks take 1.8
   /// times the steps; prototype: 2.5 times, where all are.
   double ahead_tolerance = 1e-6;
