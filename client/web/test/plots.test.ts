@@ -5,7 +5,7 @@ import {describe, expect, it} from 'vitest';
 import {CycleSchema} from '../src/api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
-import {coarseCycles, hysteresis} from '../src/model/hysteresis';
+import {polygons, hysteresis} from '../src/model/hysteresis';
 import {mechanicsOf} from '../src/model/mechanics';
 import {pixelsOf} from '../src/model/raster';
 import {unitOfScale} from '../src/plots/axes';
@@ -32,10 +32,10 @@ describe('a loop', () => {
   const of = (time: number[]) => seriesOf({time, 'A-B.deformation': time.map((t) => t - 1), 'A-B.contact_force': time});
   const view = {mechanics: mechanicsOf(scenario), cycles: [cycle], groups: [], bands: [], series: of([0, 1.5, 3])};
   it('is made of the closer samples of its cycle, if the series has few', () => {
-    expect(coarseCycles(view, [cycle])).toEqual([cycle]);
+    expect(polygons(view, [cycle])).toEqual([cycle]);
     const loops = new Map([['A-B #1', of(times)]]);
     const lengths = [view, {...view, loops}].map((one) => hysteresis(one).curves[0]!.x.length);
-    expect([lengths, coarseCycles({...view, loops}, [cycle]), coarseCycles({...view, series: of(times)}, [cycle])]).toEqual([[3, 42], [], []]);
+    expect([lengths, polygons({...view, loops}, [cycle]), polygons({...view, series: of(times)}, [cycle])]).toEqual([[3, 42], [], []]);
   });
   it('ends where the window does', () => {
     const part = hysteresis({...view, series: of([1.25, 1.5]), loops: new Map([['A-B #1', of(times)]])});

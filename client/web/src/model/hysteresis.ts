@@ -2,6 +2,7 @@
 
 import look from '../../../python/contactsim/figures/words.json';
 import type {Cycle} from '../api/generated/contact/v1/job_pb';
+import {isCoarse, stampOf} from './coarse';
 import {cycleKey, endForces, MOST_MARKED, unmarked, values, type RunPart, type RunView} from './curves';
 import type {ContactModel} from './mechanics';
 import {lowerBound, type Curve, type Panel} from './panel';
@@ -37,16 +38,16 @@ function loop(view: RunView, cycle: Cycle, contact: ContactModel): Loop {
 }
 
 /** The cycles whose loops have fewer samples than are needed for a smooth line. */
-export function coarseCycles({series, loops}: RunPart, cycles: Cycle[]): Cycle[] {
+export function polygons({series, loops}: RunPart, cycles: Cycle[]): Cycle[] {
   const time = values(series, 'time');
   const samples = ({startTimeS, endTimeS}: Cycle) => lowerBound(time, endTimeS) - lowerBound(time, startTimeS);
   return cycles.filter((cycle) => !loops?.has(cycleKey(cycle)) && samples(cycle) < SMOOTH);
 }
 
-/** The loops of all contacts. */
+/** The loops of all contacts; of a cycle with too few samples there are points. */
 export function hysteresis(view: RunView): Panel {
   const panel: Panel = {id: 'hysteresis', title: look.titles.hysteresis, xLabel: 'deformation [m]',
-    yLabel: 'contact force [N]', overTime: false, curves: [],
+    yLabel: 'contact force [N]', overTime: false, curves: [], stamp: stampOf(view),
     note: 'o start, × end of a contact cycle; the area of a loop is the energy lost' + unmarked(view.cycles)};
   view.mechanics.contacts.forEach((contact, colour) => {
     let keyed = true;
@@ -56,7 +57,7 @@ export function hysteresis(view: RunView): Panel {
       const label = keyed ? contact.name : `${contact.name} #${cycle.number}`;
       const mark = (name: string, kind: 'start' | 'end', i: number): Curve =>
         ({label: `${label} ${name}`, colour, mark: kind, keyed: false, x: [x.at(i)!], y: [y.at(i)!]});
-      panel.curves.push({label, colour, mark: 'line', keyed, x, y});
+      panel.curves.push({label, colour, mark: isCoarse(view, cycle) ? 'rare' : 'line', keyed, x, y});
       if (starts) panel.curves.push(mark('starts', 'start', 0));
       if (ends) panel.curves.push(mark('ends', 'end', -1));
       keyed = false;

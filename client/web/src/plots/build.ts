@@ -27,7 +27,7 @@ const SOLID: number[] = [];
 
 /** The curves that uPlot draws. */
 export function lines(panel: Panel): Curve[] {
-  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end' && mark !== 'points') : [];
+  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end' && mark !== 'points' && mark !== 'rare') : [];
 }
 
 /** The curves that are dots over others. */
@@ -68,7 +68,9 @@ function seriesOf({panel, theme, hidden, ink}: Shown): uPlot.Series[] {
     stroke: colourOf(curve.colour, theme),
     paths: pathsOf(curve.mark === 'dashed' ? {width: 1.2, dash: [6, 4]} : {width: 1.6, dash: dashOf(curve.colour)}),
     points: {show: curve.mark === 'linePoints', size: 6, fill: ink.paper},
-    spanGaps: true,
+    // Values that are not there are joined over; samples that are too rare are not.
+    spanGaps: !curve.loose?.length,
+    gaps: (u) => (curve.loose ?? []).map(({start, end}): [number, number] => [u.valToPos(start, 'x', true), u.valToPos(end, 'x', true)]),
   }));
   return [{label: 'x'}, ...(drawn.length > 0 ? drawn : [{show: false}])];
 }
@@ -116,7 +118,7 @@ export function buildPlot(shown: Shown, width: number, height: number, into: HTM
     series: seriesOf(shown),
     cursor: cursorOf(shown),
     hooks: {
-      drawAxes: [(plot) => drawBehind(sheet(plot))],
+      drawAxes: [(plot) => drawBehind(sheet(plot), shown.hidden)],
       draw: [(plot) => drawOver(sheet(plot), shown.hidden, plot.width >= NAMED_FROM_PX), () => shown.onDrawn()],
       setSelect: [(plot) => takeSelection(plot, shown)],
       setCursor: [(plot) => shown.onCursor(plot.cursor.idx ?? null)],

@@ -5,7 +5,7 @@ import {useEffect, useState} from 'preact/hooks';
 
 import {readSeries, type Series} from '../../api/series';
 import {cycleKey, type RunPart} from '../../model/curves';
-import {coarseCycles} from '../../model/hysteresis';
+import {polygons} from '../../model/hysteresis';
 import type {Mechanics} from '../../model/mechanics';
 
 const MOST_LOOPS = 40;    // Of a window, calls one after the other. More loops hide each other: they wait for a zoom.
@@ -21,7 +21,7 @@ export function useLoops(name: string, {contacts}: Mechanics, part: RunPart, end
     const read = async () => {
       const shown = new Set(contacts.map((contact) => contact.name));
       const found = new Map(loops);
-      const coarse = coarseCycles({...part, loops}, part.cycles.filter(({contact}) => shown.has(contact)));
+      const coarse = polygons({...part, loops}, part.cycles.filter(({contact}) => shown.has(contact)));
       if (coarse.length > MOST_LOOPS) return;
       for (const cycle of coarse) {
         const channels = ['deformation', 'contact_force'].map((quantity) => `${cycle.contact}.${quantity}`);
