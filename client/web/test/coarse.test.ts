@@ -58,6 +58,7 @@ describe('rare samples', () => {
       expect(panel.ranges!.map(({start, end, low, high}) => [start, end, low, high])).toEqual(near(ranges));
       expect(panel.curves[0]!.loose!.map(ends)).toEqual(near(loose));
       expect(panel.cut!.map(ends)).toEqual(near(cut));
+      expect(panel.labels!.length > 0).toBe(!stamp);   // Peaks that are not seen are not labelled.
     });
   }
   const rare = bouncing({period: 0.01, samples: 300});

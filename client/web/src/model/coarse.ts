@@ -35,10 +35,14 @@ function recordedIn(view: RunView, from: number, to: number, last: typeof lowerB
   return Math.max(view.mechanics.scenario.output?.samplesPerContact ?? 0, (to - from) * rateOf(view, time));
 }
 
+/** Whether a cycle is seen. */
+export function isFine(view: RunView, {startTimeS, endTimeS}: Cycle): boolean {
+  return timesOf(view).length > 0 && recordedIn(view, startTimeS, endTimeS, upperBound) >= FEW;
+}
+
 /** Whether a cycle has too few samples; one that the end of the run cuts may have any number. */
 export function isCoarse(view: RunView, cycle: Cycle): boolean {
-  return timesOf(view).length > 0 && cycle.end !== Cycle_End.RUN_END
-    && recordedIn(view, cycle.startTimeS, cycle.endTimeS, upperBound) < FEW;
+  return timesOf(view).length > 0 && cycle.end !== Cycle_End.RUN_END && !isFine(view, cycle);
 }
 
 /** The cycles of some contacts. */

@@ -3,7 +3,7 @@
 import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
 import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
-import {coarseNote, isCoarse, looseSpans, rangesOf, stampOf} from './coarse';
+import {coarseNote, isFine, looseSpans, rangesOf, stampOf} from './coarse';
 import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
@@ -47,7 +47,7 @@ function peakLabels(view: RunView): Label[] {
   const apart = 0.02 * ((time.at(-1) ?? 0) - (time[0] ?? 0));
   const chosen: Cycle[] = [];
   const inside = (at: number) => at >= time[0]! && at <= time.at(-1)!;   // NaN if cut before.
-  const seen = cycles.filter((cycle) => inside(cycle.turnTimeS) && !isCoarse(view, cycle));
+  const seen = cycles.filter((cycle) => inside(cycle.turnTimeS) && isFine(view, cycle));
   for (const cycle of seen.sort((a, b) => b.peakForceN - a.peakForceN)) {
     if (chosen.length === MOST_LABELS) break;
     if (chosen.every((other) => Math.abs(other.turnTimeS - cycle.turnTimeS) >= apart)) chosen.push(cycle);

@@ -41,7 +41,7 @@ function inkOf(element: Element): Ink {
 /** What makes another plot necessary, rather than other data. */
 function structure(panel: Panel): string {
   return JSON.stringify([panel.logX, panel.logY, panel.overTime, panel.countedX, panel.lanes?.length, !!panel.raster, panel.raster?.lines,
-    lines(panel).map(({mark, colour, loose}) => [mark, colour, loose])]);
+    lines(panel).map(({mark, colour}) => [mark, colour])]);
 }
 
 const UNSEEN_MS = 600;
