@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-from contact.v1 import scenario_pb2
+from contact.v1 import event_pb2, job_pb2, scenario_pb2
 from contactsim.figures import FigureError
 from contactsim.figures.axes import AxisUnit, chosen_unit, named_unit, readable_unit, unit_of
 from contactsim.figures.figure import Curve, Mark
@@ -19,6 +19,15 @@ from google.protobuf import json_format
 
 TESTS = pathlib.Path(__file__).parents[1]
 PRINTED = json.loads((TESTS / "reference/words.json").read_text("utf-8"))
+
+
+def fields_of(messages):
+    """The names of all numbers in messages and in those inside them."""
+    names = set()
+    for message in messages:
+        names |= {field.name for field in message.fields
+                  if field.cpp_type == field.CPPTYPE_DOUBLE} | fields_of(message.nested_types)
+    return names
 
 
 class ReadableUnitTest(unittest.TestCase):
@@ -107,6 +116,21 @@ class LabelsTest(unittest.TestCase):
     def test_names_end_as_in_the_tables_of_the_server(self):
         server = (TESTS.parent / "server/wire/column_name.cpp").read_text("utf-8")
         self.assertEqual(re.findall(r'\{"(_\w+)", "(.+?)"\}', server), ENDINGS)
+
+    def test_every_ending_is_one_that_names_of_the_contract_have(self):
+        names = set()
+        for file in (scenario_pb2, job_pb2, event_pb2):
+            names |= fields_of(file.DESCRIPTOR.message_types_by_name.values())
+        found = [next((ending for ending, _ in ENDINGS if name.endswith(ending)), "")
+                 for name in names]
+        self.assertEqual(set(found) - {""}, {ending for ending, _ in ENDINGS})
+
+    def test_channels_and_their_units_are_those_that_the_server_records(self):
+        server = (TESTS.parent / "server/wire/scenario/channels.cpp").read_text("utf-8")
+        channels = dict(re.findall(r'Channel\([^()]+, "(\w+)", "([^"]+)"\)', server))
+        listed = re.search(r"for \(const char\* quantity :\s+\{([^}]+)\}\)", server).group(1)
+        channels |= {name: "J" for name in re.findall(r'"(\w+)"', listed)}
+        self.assertEqual(WORDS["channels"], channels)
 
     def test_metrics_name_the_quantity_its_owner_and_its_unit_as_in_the_dashboard(self):
         for metric, label in PRINTED["metrics"]:

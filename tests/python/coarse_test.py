@@ -1,5 +1,7 @@
 """Figures say what their samples are too few for, and show what the ledger knows all the same."""
 
+import json
+import pathlib
 import unittest
 
 import numpy as np
@@ -13,6 +15,7 @@ from contactsim.figures.shown import Part
 from sample_run import run_of, sample_run
 
 Cycle = job_pb2.Cycle
+REFERENCE = pathlib.Path(__file__).parents[1] / "reference/coarse.json"
 
 
 def bouncing(period, samples, length=0.1, cut=False):
@@ -96,6 +99,18 @@ class CoarseTest(unittest.TestCase):
     def test_data_are_those_that_were_recorded(self):
         rows = points_csv(preset_figure("velocity", bouncing(0.01, 300))).splitlines()
         self.assertEqual(sum(row.startswith("ball,") for row in rows if "floor" not in row), 300)
+
+    def test_the_dashboard_shows_the_same(self):
+        """client/web/test/coarse.test.ts has the same runs, as few columns as it needs."""
+        for case in json.loads(REFERENCE.read_text("utf-8"))["cases"]:
+            panel = preset_figure("force", bouncing(**case["run"])).panels[0]
+            ranges = [row for each in panel.ranges
+                      for row in zip(each.start, each.end, each.low, each.high)]
+            self.assertEqual(panel.stamp, case["stamp"])
+            for name, shown in (("ranges", ranges), ("loose", panel.curves[0].loose),
+                                ("cut", panel.cut)):
+                self.assertEqual(np.shape(shown), np.shape(case[name]), name)
+                np.testing.assert_allclose(shown, case[name], rtol=1e-12, atol=1e-12)
 
     def test_stamp_ranges_and_cuts_are_drawn_in_every_look(self):
         run = bouncing(0.1, 300, cut=True)

@@ -123,6 +123,10 @@ ExitCode Run(const SweepArguments& arguments, const Settings& settings) {
   CheckNames(sweep, arguments, settings);
   Client client = Connect(settings);
   const std::string name = client.CallTellingAll(&Client::Stub::CreateJob, request).name();
+  if (settings.output == OutputFormat::kName && arguments.heat_map.empty()) {
+    fmt::print("{}\n", name);  // As submit does; sweep watch waits for the cells.
+    return ExitCode::kOk;
+  }
   const ExitCode code = Follow(client, name, arguments, settings);
   if (settings.output == OutputFormat::kTable) {
     Tell("Next:  contactctl sweep export {} -o csv\n", ShortName(name));
@@ -205,7 +209,8 @@ void AddSource(CommandLine& line, CLI::App& run, SweepArguments* arguments) {
 void AddSweep(CommandLine& line, CLI::App& sweep) {
   sweep.require_subcommand(1);
   auto arguments = std::make_shared<SweepArguments>();
-  CLI::App* run = sweep.add_subcommand("run", "Submit a sweep, watch it, show its cells");
+  CLI::App* run = sweep.add_subcommand(
+      "run", "Submit a sweep, watch it, show its cells; with -o name only submit it");
   AddShowing(line, *run, arguments, Run);
   AddSource(line, *run, arguments.get());
 

@@ -5,7 +5,7 @@ import {describe, expect, it} from 'vitest';
 import {CycleSchema} from '../src/api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
-import {coarseCycles, hysteresis} from '../src/model/hysteresis';
+import {alongLoop, hysteresis, polygons} from '../src/model/hysteresis';
 import {mechanicsOf} from '../src/model/mechanics';
 import {pixelsOf} from '../src/model/raster';
 import {unitOfScale} from '../src/plots/axes';
@@ -32,14 +32,47 @@ describe('a loop', () => {
   const of = (time: number[]) => seriesOf({time, 'A-B.deformation': time.map((t) => t - 1), 'A-B.contact_force': time});
   const view = {mechanics: mechanicsOf(scenario), cycles: [cycle], groups: [], bands: [], series: of([0, 1.5, 3])};
   it('is made of the closer samples of its cycle, if the series has few', () => {
-    expect(coarseCycles(view, [cycle])).toEqual([cycle]);
+    expect(polygons(view, [cycle])).toEqual([cycle]);
     const loops = new Map([['A-B #1', of(times)]]);
     const lengths = [view, {...view, loops}].map((one) => hysteresis(one).curves[0]!.x.length);
-    expect([lengths, coarseCycles({...view, loops}, [cycle]), coarseCycles({...view, series: of(times)}, [cycle])]).toEqual([[3, 42], [], []]);
+    expect([lengths, polygons({...view, loops}, [cycle]), polygons({...view, series: of(times)}, [cycle])]).toEqual([[3, 42], [], []]);
   });
   it('ends where the window does', () => {
     const part = hysteresis({...view, series: of([1.25, 1.5]), loops: new Map([['A-B #1', of(times)]])});
     expect([part.curves.length, part.curves[0]!.x.length]).toEqual([1, 10]);
+  });
+});
+
+describe('the samples of a loop', () => {
+  const SAMPLES = 5000;
+  const phases = Array.from({length: SAMPLES}, (_, i) => (i / (SAMPLES - 1)) ** 4);   // Most samples lie where it starts.
+  const x = phases.map((phase) => 1e-5 * Math.sin(Math.PI * phase));
+  const y = phases.map((phase, i) => 1e4 * ((x[i]! / 1e-5) ** 1.5 + 0.3 * Math.sin(2 * Math.PI * phase) * (x[i]! / 1e-5)));
+  const loop = seriesOf({time: phases, x, y});
+  const area = (samples: Series) => {
+    const [a, b] = [samples.get('x')!.values, samples.get('y')!.values];
+    return a.reduce((sum, value, i) => (i ? sum + (value - a[i - 1]!) * (b[i]! + b[i - 1]!) / 2 : 0), 0);
+  };
+  const thinned = alongLoop(loop, ['x', 'y'], 60);
+  const column = (name: string) => Array.from(thinned.get(name)!.values);
+  it('keep its area within 1 %, which they do not if they are thinned over time', () => {
+    expect([column('x').length <= 60, column('x').length > 40]).toEqual([true, true]);
+    expect(Math.abs(area(thinned) / area(loop) - 1)).toBeLessThan(0.01);
+    const some = (_: number, i: number) => i % Math.ceil(SAMPLES / 12) === 0 || i === SAMPLES - 1;
+    const overTime = seriesOf({x: x.filter(some), y: y.filter(some)});
+    expect(Math.abs(area(overTime) / area(loop) - 1)).toBeGreaterThan(Math.abs(area(alongLoop(loop, ['x', 'y'], 12)) / area(loop) - 1));
+  });
+  it('keep its ends and its extreme points, and are samples', () => {
+    for (const [name, all] of [['x', x], ['y', y]] as const) {
+      expect([column(name)[0], column(name).at(-1), Math.min(...column(name)), Math.max(...column(name))])
+        .toEqual([all[0], all.at(-1), Math.min(...all), Math.max(...all)]);
+    }
+    expect(column('time').every((time) => phases.includes(time))).toBe(true);
+  });
+  it('are all there if they are few, or lie on one point', () => {
+    expect(alongLoop(loop, ['x', 'y'], SAMPLES)).toBe(loop);
+    const still = seriesOf({x: new Array<number>(100).fill(1), y: new Array<number>(100).fill(2)});
+    expect(alongLoop(still, ['x', 'y'], 10).get('x')!.values.length).toBeLessThanOrEqual(10);
   });
 });
 

@@ -51,8 +51,7 @@ class NamingJobsTest(CliTest):
         self.assertIn(f"{name}\tSUCCEEDED Triple-ball chain\n", offered)
 
     def test_sweep_has_the_title_of_its_base(self):
-        self.run_it("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.7,0.8",
-                    "-o", "name")
+        self.run_it("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.7,0.8")
         self.assertEqual(self.run_it("list", "-o", "csv", "--columns", "title,missed")[0],
                          "title,missed\nTriple-ball chain,0\n")
 

@@ -14,8 +14,8 @@ class SweepCellTest(CliTest):
         super().setUp()
         self.sweep = self.run_it(
             "sweep", "run", CHAIN, "--grid", f"{VELOCITY}=0.1:0.5:3", "--grid",
-            f"{RESTITUTION}=0.7,0.8,1.5", "--metric", "cycles[B1-B2].mu", "-o", "name",
-            code=7)[0].strip()
+            f"{RESTITUTION}=0.7,0.8,1.5", "--metric", "cycles[B1-B2].mu", "-o",
+            "name")[0].strip()
 
     def cell(self, which, *flags, code=0):
         return self.run_it("sweep", "cell", self.sweep, which, *flags, code=code)

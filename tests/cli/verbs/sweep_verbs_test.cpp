@@ -128,6 +128,18 @@ TEST_F(SweepVerbsTest, RunIsNoSweep) {
   }
 }
 
+// Whoever reads its cells waits for them.
+TEST_F(SweepVerbsTest, RunPrintsTheNameWithoutWaitingAsSubmitDoes) {
+  const std::string file = CONTACT_SOURCE_DIR "/client/scenarios/table-3-sweep.yaml";
+  const End run = Run({"sweep", "run", file, "-o", "name"});
+  const End submit = Run({"submit", file, "-o", "name"});
+  EXPECT_EQ(run.code, ExitCode::kOk);
+  EXPECT_EQ(run.printed, "jobs/new\n");
+  EXPECT_EQ(submit.printed, "jobs/new2\n");
+  EXPECT_EQ(run.said, submit.said);
+  EXPECT_TRUE(server_.Asked<v1::WatchJobRequest>().empty());
+}
+
 TEST_F(SweepVerbsTest, GridOfTheCommandLineIsTheSweep) {
   const std::string base = CONTACT_SOURCE_DIR "/client/scenarios/two-balls.yaml";
   const End end = Run({"sweep", "run", base, "--grid", "contacts[0].restitution=0.5,0.7", "--label",

@@ -11,11 +11,13 @@ from contact.v1 import job_pb2
 
 from ..model import Array
 from .figure import Range
+from .words import WORDS
 
 if TYPE_CHECKING:
     from .shown import Shown
 
-FEW_SAMPLES = 10  #: A cycle, or a time from one to the next, with fewer samples has no visible shape.
+#: A cycle, or a time from one to the next, with fewer samples has no visible shape.
+FEW_SAMPLES: int = WORDS["coarse"]["few"]
 
 #: Of a cycle, the smallest and the largest value that the ledger tells.
 Extremes = tuple[float, float]

@@ -70,7 +70,7 @@ def keys(panel: Panel) -> list[tuple[Any, str]]:
     """Entries of the key for ranges and hatches."""
     entries: list[tuple[Any, str]] = []
     if panel.ranges:
-        entries.append((Patch(facecolor="#808080", alpha=0.3), "range in contacts too short for samples"))
+        entries.append((Patch(facecolor="#808080", alpha=0.3), WORDS["coarse"]["range"]))
     if panel.cut:
-        entries.append((Patch(**_HATCH), "cut by the end of the run"))
+        entries.append((Patch(**_HATCH), WORDS["coarse"]["cut"]))
     return entries

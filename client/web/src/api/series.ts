@@ -18,6 +18,8 @@ export interface Channel {
 export interface Series extends Map<string, Channel> {
   /** True if more samples are recorded than are here. */
   thinned?: boolean;
+  /** How many are recorded in the time asked for. */
+  recorded?: number;
 }
 
 /** The doubles of a column: little-endian, as all machines that run browsers are. */
@@ -66,7 +68,7 @@ async function readColumns(query: SeriesQuery, signal?: AbortSignal): Promise<Se
   }, signal ? {signal} : {});
   const columns = new Map(answer.columns.map(({name, quantity, unit, values}) =>
     [name, {name, quantity, unit, values: doubles(values)}]));
-  return Object.assign(columns, {thinned: answer.recordedSamples > answer.samples});
+  return Object.assign(columns, {thinned: answer.recordedSamples > answer.samples, recorded: Number(answer.recordedSamples)});
 }
 
 const MOST_HALVINGS = 12;

@@ -3,6 +3,7 @@
 import look from '../../../python/contactsim/figures/words.json';
 import type {Series} from '../api/series';
 import {Cycle_End, type Cycle, type Group} from '../api/generated/contact/v1/job_pb';
+import {cutSpans, outside, stampOf} from './coarse';
 import {endForce, tabled, type ContactModel, type Mechanics} from './mechanics';
 import {count} from './numbers';
 import {interpolate, joined, type Band, type Curve, type Panel} from './panel';
@@ -56,23 +57,25 @@ export function bandsOf(cycles: Cycle[]): Band[] {
 }
 
 /** A panel over time, with contact shaded. */
-export function overTime({bands, cycles}: RunView, id: keyof typeof look.titles, yLabel: string): Panel {
-  return {id, title: look.titles[id], xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, note: NOTE + unmarked(cycles)};
+export function overTime(view: RunView, id: keyof typeof look.titles, yLabel: string): Panel {
+  const {bands, cycles} = view;
+  return {id, title: look.titles[id], xLabel: 'time [s]', yLabel, overTime: true, curves: [], bands, cut: cutSpans(view), stamp: stampOf(view),
+    note: NOTE + unmarked(cycles)};
 }
 
-/** A column as a curve. */
-export function line(view: RunView, channel: string, label: string, colour: number, offset = 0): Curve {
+/** A column as a curve; `loose`: where its samples are too rare to be joined. */
+export function line(view: RunView, channel: string, label: string, colour: number, loose: Band[], offset = 0): Curve {
   const column = values(view.series, channel);
   const y = offset === 0 ? column : column.map((value) => value + offset);
-  return {label, colour, mark: 'line', x: values(view.series, 'time'), y, channel, offset};
+  return {label, colour, mark: 'line', x: values(view.series, 'time'), y, channel, offset, loose};
 }
 
-/** Circles where cycles start and crosses where they end. */
+/** Circles where cycles start and crosses where they end, but for cycles in `loose`. */
 export function marks(
-  cycles: Cycle[], label: string, colour: number,
+  cycles: Cycle[], label: string, colour: number, loose: Band[],
   atStart: (cycle: Cycle) => number, atEnd: (cycle: Cycle) => number,
 ): Curve[] {
-  const shown = cycles.slice(0, MOST_MARKED);
+  const shown = outside(loose, cycles).slice(0, MOST_MARKED);
   return [
     {label: `${label} starts`, colour, mark: 'start', keyed: false, x: shown.map((c) => c.startTimeS), y: shown.map(atStart)},
     {label: `${label} ends`, colour, mark: 'end', keyed: false, x: shown.map((c) => c.endTimeS), y: shown.map(atEnd)},

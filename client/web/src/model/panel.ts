@@ -3,7 +3,7 @@
 import type {Raster} from './raster';
 
 /** How the points of a curve are drawn. */
-export type Mark = 'line' | 'dashed' | 'linePoints' | 'points' | 'start' | 'end' | 'faint';
+export type Mark = 'line' | 'dashed' | 'linePoints' | 'points' | 'rare' | 'start' | 'end' | 'faint';
 
 /** Points (x, y) in the order in which they are joined. */
 export interface Curve {
@@ -18,12 +18,23 @@ export interface Curve {
   /** The recorded column that it shows, and what was added to its values. */
   channel?: string;
   offset?: number;
+  /** Spans of x whose points are too rare to be joined. */
+  loose?: Band[];
 }
 
 /** A stretch of the x axis. */
 export interface Band {
   start: number;
   end: number;
+}
+
+/** Between which values something was, over a stretch of the x axis. */
+export interface Range extends Band {
+  /** The curve that it belongs to, and its colour. */
+  label: string;
+  colour: number;
+  low: number;
+  high: number;
 }
 
 /** Stretches of one contact, drawn as a row of bars above the curves. */
@@ -55,6 +66,11 @@ export interface Panel {
   logY?: boolean;
   curves: Curve[];
   bands?: Band[];
+  /** What the end of the run cuts. */
+  cut?: Band[];
+  ranges?: Range[];
+  /** What the samples are too few for. */
+  stamp?: string;
   lanes?: Lane[];
   labels?: Label[];
   dottedLines?: number[];

@@ -3,6 +3,7 @@
 import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, type Cycle} from '../api/generated/contact/v1/job_pb';
 import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
+import {coarseNote, isFine, looseSpans, rangesOf, stampOf} from './coarse';
 import {at, endForces, line, marks, overTime, values, type RunView} from './curves';
 import {hysteresis} from './hysteresis';
 import type {Mechanics} from './mechanics';
@@ -40,11 +41,13 @@ function lanesOf({mechanics, groups, cycles}: RunView): Lane[] {
 }
 
 /** μ/k at the highest peaks that are apart. */
-function peakLabels({cycles, series}: RunView): Label[] {
+function peakLabels(view: RunView): Label[] {
+  const {cycles, series} = view;
   const time = values(series, 'time');
   const apart = 0.02 * ((time.at(-1) ?? 0) - (time[0] ?? 0));
   const chosen: Cycle[] = [];
-  const seen = cycles.filter(({turnTimeS}) => turnTimeS >= time[0]! && turnTimeS <= time.at(-1)!);   // NaN if cut before.
+  const inside = (at: number) => at >= time[0]! && at <= time.at(-1)!;   // NaN if cut before.
+  const seen = cycles.filter((cycle) => inside(cycle.turnTimeS) && isFine(view, cycle));
   for (const cycle of seen.sort((a, b) => b.peakForceN - a.peakForceN)) {
     if (chosen.length === MOST_LABELS) break;
     if (chosen.every((other) => Math.abs(other.turnTimeS - cycle.turnTimeS) >= apart)) chosen.push(cycle);
@@ -54,41 +57,50 @@ function peakLabels({cycles, series}: RunView): Label[] {
   }));
 }
 
+const told = (panel: Panel): Panel => ({...panel, note: `${panel.note ?? ''}${coarseNote(panel)}`});
+
 function bodies(view: RunView, quantity: string, panel: Panel, origin: (position: number) => number): Panel {
+  const {contacts} = view.mechanics;
+  const loose = looseSpans(view, contacts);
+  const looseBy = contacts.map((contact) => looseSpans(view, [contact]));
   view.mechanics.bodies.forEach((body, index) => {
     const channel = `${body.name}.${quantity}`;
     const offset = -origin(body.position);
-    panel.curves.push(line(view, channel, body.name, index, offset));
-    for (const contact of view.mechanics.contacts) {
+    panel.curves.push(line(view, channel, body.name, index, loose, offset));
+    for (const [place, contact] of contacts.entries()) {
       if (contact.left !== index && contact.right !== index) continue;
       const own = view.cycles.filter((cycle) => cycle.contact === contact.name);
-      panel.curves.push(...marks(own, `${body.name}, ${contact.name}`, index,
+      panel.curves.push(...marks(own, `${body.name}, ${contact.name}`, index, looseBy[place]!,
         (cycle) => at(view.series, channel, cycle.startTimeS) + offset,
         (cycle) => at(view.series, channel, cycle.endTimeS) + offset));
     }
   });
-  return panel;
+  return told(panel);
 }
 
 function force(view: RunView): Panel {
-  const panel = overTime(view, 'force', 'force [N]');
+  const panel: Panel = {...overTime(view, 'force', 'force [N]'), ranges: []};
   const few = view.mechanics.contacts.length <= MOST_TOLD;
   const lanes = lanesOf(view);
   view.mechanics.contacts.forEach((contact, colour) => {
-    panel.curves.push(line(view, `${contact.name}.contact_force`, contact.name, colour));
+    const loose = looseSpans(view, [contact]);
+    const [start, end] = endForces(view, contact);
+    panel.curves.push(line(view, `${contact.name}.contact_force`, contact.name, colour, loose));
     if (few) panel.curves.push({
-      ...line(view, `${contact.name}.external_force`, `${contact.name} equivalent external`, colour),
+      ...line(view, `${contact.name}.external_force`, `${contact.name} equivalent external`, colour, loose),
       mark: 'dashed',
     });
     const own = view.cycles.filter((cycle) => cycle.contact === contact.name);
-    panel.curves.push(...marks(own, contact.name, colour, ...endForces(view, contact)));
+    panel.curves.push(...marks(own, contact.name, colour, loose, start, end));
+    panel.ranges!.push(...rangesOf(view, contact, colour, (c) => [start(c), end(c), c.peakForceN]));
   });
   const notes = [panel.note, ...(lanes.length > 0 ? ['bars: groups, by number'] : []), ...(few ? ['dashed: equivalent external'] : [])];
-  return {...panel, lanes, labels: few ? peakLabels(view) : [], note: notes.join('; ')};
+  return told({...panel, lanes, labels: few ? peakLabels(view) : [], note: notes.join('; ')});
 }
 
 /** A quantity of all contacts or bodies, a row for each in the order of the scenario: as colours, or as lines. */
-function rowsOf({mechanics, series}: RunView, moving: boolean, lines: boolean): Panel {
+function rowsOf(view: RunView, moving: boolean, lines: boolean): Panel {
+  const {mechanics, series} = view;
   const [quantity, channel, each] = moving ? ['velocity [m/s]', 'velocity', 'body'] : ['force [N]', 'contact_force', 'contact'];
   const id = `${moving ? 'velocity' : 'force'}-${lines ? 'waterfall' : 'map'}` as const;
   const rows = (moving ? mechanics.bodies : mechanics.contacts).map(({name}) => ({name, values: values(series, `${name}.${channel}`)}));
@@ -100,7 +112,7 @@ function rowsOf({mechanics, series}: RunView, moving: boolean, lines: boolean): 
   const colour = both ? `from −${most} (blue) over 0 (white) to ${most} (red)` : `from 0 (dark) to ${most} (bright)`;
   return {
     id, title: look.titles[id],
-    xLabel: 'time [s]', yLabel: each, overTime: true, countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines},
+    xLabel: 'time [s]', yLabel: each, overTime: true, stamp: stampOf(view), countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines},
     note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest`,
   };
 }
@@ -109,17 +121,20 @@ function deformation(view: RunView, rate: boolean): Panel {
   const panel = rate
     ? overTime(view, 'deformation-velocity', 'deformation velocity [m/s]')
     : overTime(view, 'deformation', 'deformation [m]');
-  view.mechanics.contacts.forEach(({name}, colour) => {
+  view.mechanics.contacts.forEach((contact, colour) => {
+    const {name} = contact;
+    const loose = looseSpans(view, [contact]);
     const channel = `${name}.deformation${rate ? '_velocity' : ''}`;
-    panel.curves.push(line(view, channel, name, colour));
+    panel.curves.push(line(view, channel, name, colour, loose));
     const own = view.cycles.filter((cycle) => cycle.contact === name);
     const cut = (c: Cycle, value: number) =>
       (c.end === Cycle_End.RUN_END ? at(view.series, channel, c.endTimeS) : value);
-    panel.curves.push(...marks(own, name, colour,
+    panel.curves.push(...marks(own, name, colour, loose,
       (c) => (rate ? c.approachVelocityMPerS : c.deltaStartM),
       (c) => cut(c, rate ? c.separationVelocityMPerS : c.deltaEndM)));
+    if (!rate) panel.ranges = [...panel.ranges ?? [], ...rangesOf(view, contact, colour, (c) => [c.deltaStartM, c.deltaEndM, c.deltaMaxM])];
   });
-  return rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`};
+  return told(rate ? panel : {...panel, note: `${panel.note}; below 0: the gap`});
 }
 
 /** Why a plot of a job of an older server is empty. */
@@ -144,6 +159,7 @@ function isDriven({loads, bodies: all, contacts}: Scenario): boolean {
 function energy(view: RunView): Panel {
   const {series, mechanics: {scenario}} = view;
   const panel = {...overTime(view, 'energy', 'energy [J]'), note: 'shaded: in contact'};
+  const loose = looseSpans(view, view.mechanics.contacts);
   const parts = ENERGIES.map(([label, quantity]) => ({label, channel: `system.${quantity}`, y: values(series, `system.${quantity}`)}));
   if (parts.some(({y}) => y.length === 0)) {
     return series.has('time') ? {...panel, nothing: lacks('energies')} : panel;
@@ -151,8 +167,8 @@ function energy(view: RunView): Panel {
   const sum = parts[0]!.y.map((_, i) => parts.reduce((all, {label, y}) => all + (label === 'load work' ? -y[i]! : y[i]!), 0));
   const absent = [scenario.supports.length === 0 && 'supports', !isDriven(scenario) && 'load work'];
   const shown = [...parts.filter(({label}) => !absent.includes(label)), {label: 'sum less load work', channel: '', y: sum}];
-  panel.curves = shown.map(({label, channel, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y, channel}));
-  return panel;
+  panel.curves = shown.map(({label, channel, y}, colour) => ({label, colour, mark: 'line', x: values(series, 'time'), y, channel, loose}));
+  return told(panel);
 }
 
 function wallLines({bodies: all, contacts}: Mechanics): number[] {

@@ -16,6 +16,7 @@ export interface Ink {
   grid: string;
   band: string;
   paper: string;
+  warn: string;
 }
 
 const LOGARITHMIC: uPlot.Scale.Distr = 3;

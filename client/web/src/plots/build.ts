@@ -27,7 +27,7 @@ const SOLID: number[] = [];
 
 /** The curves that uPlot draws. */
 export function lines(panel: Panel): Curve[] {
-  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end' && mark !== 'points') : [];
+  return panel.overTime ? panel.curves.filter(({mark}) => mark !== 'start' && mark !== 'end' && mark !== 'points' && mark !== 'rare') : [];
 }
 
 /** The curves that are dots over others. */
@@ -61,14 +61,22 @@ function pathsOf(style: {width: number; dash: number[]}): uPlot.Series.PathBuild
   };
 }
 
-function seriesOf({panel, theme, hidden, ink}: Shown): uPlot.Series[] {
+/** Where a curve is not drawn, in pixels: where samples are too rare. Over values that are not there it goes on. */
+function gapsOf(shown: Shown): uPlot.Series.GapsRefiner {
+  return (u, place) => (lines(shown.panel)[place - 1]?.loose ?? []).map(({start, end}): [number, number] =>
+    [u.valToPos(start, 'x', true), u.valToPos(end, 'x', true)]);
+}
+
+function seriesOf(shown: Shown): uPlot.Series[] {
+  const {panel, theme, hidden, ink} = shown;
   const drawn = lines(panel).map((curve): uPlot.Series => ({
     label: curve.label,
     show: !hidden.has(curve.label),
     stroke: colourOf(curve.colour, theme),
     paths: pathsOf(curve.mark === 'dashed' ? {width: 1.2, dash: [6, 4]} : {width: 1.6, dash: dashOf(curve.colour)}),
     points: {show: curve.mark === 'linePoints', size: 6, fill: ink.paper},
-    spanGaps: true,
+    spanGaps: false,
+    gaps: gapsOf(shown),
   }));
   return [{label: 'x'}, ...(drawn.length > 0 ? drawn : [{show: false}])];
 }
@@ -116,7 +124,7 @@ export function buildPlot(shown: Shown, width: number, height: number, into: HTM
     series: seriesOf(shown),
     cursor: cursorOf(shown),
     hooks: {
-      drawAxes: [(plot) => drawBehind(sheet(plot))],
+      drawAxes: [(plot) => drawBehind(sheet(plot), shown.hidden)],
       draw: [(plot) => drawOver(sheet(plot), shown.hidden, plot.width >= NAMED_FROM_PX), () => shown.onDrawn()],
       setSelect: [(plot) => takeSelection(plot, shown)],
       setCursor: [(plot) => shown.onCursor(plot.cursor.idx ?? null)],

@@ -19,14 +19,14 @@ function Swatch({curve}: {curve: Curve}) {
   const dash = curve.mark === 'dashed' ? [4, 3] : dashOf(curve.colour);
   return (
     <svg class="swatch" width="22" height="8" aria-hidden="true">
-      {curve.mark === 'points' ? [3, 11, 19].map((x) => <circle key={x} cx={x} cy="4" r="2.2" fill={colourOf(curve.colour, theme)} />)
+      {curve.mark === 'points' || curve.mark === 'rare' ? [3, 11, 19].map((x) => <circle key={x} cx={x} cy="4" r="2.2" fill={colourOf(curve.colour, theme)} />)
         : <line x1="0" y1="4" x2="22" y2="4" stroke={colourOf(curve.colour, theme)} stroke-width="2" stroke-dasharray={dash.join(' ')} />}
     </svg>
   );
 }
 
 export function Key({panel, hidden, setHidden, reading}: Props) {
-  const curves = panel.overTime ? [...lines(panel), ...dotted(panel)] : panel.curves.filter(({keyed, mark}) => keyed !== false && mark === 'line');
+  const curves = panel.overTime ? [...lines(panel), ...dotted(panel)] : panel.curves.filter(({keyed, mark}) => keyed !== false && (mark === 'line' || mark === 'rare'));
   const toggle = (label: string) => {
     const next = new Set(hidden);
     if (!next.delete(label)) next.add(label);

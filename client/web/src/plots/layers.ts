@@ -3,6 +3,7 @@
 
 import type uPlot from 'uplot';
 
+import {rarePoints} from '../model/coarse';
 import type {Curve, Panel} from '../model/panel';
 import {pixelsOf, waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
@@ -12,6 +13,8 @@ import {crowded, endNames, placeLabels, shortName} from './words';
 export const LANE_PX = 10;
 const MARK_PX = 4.5;
 const DOT_PX = 2.2;
+const RARE_PX = 1.2;
+export const HATCH_PX = 7;
 
 interface Sheet {
   u: uPlot;
@@ -64,8 +67,44 @@ function drawRaster(sheet: Sheet): void {
   u.ctx.drawImage(pictureOf(raster, [min!, max!], Math.round(width)), left, top, width, height);
 }
 
+/** Oblique lines where the end of the run cuts a cycle. */
+function drawCut({u, panel, ink}: Sheet, ctx: CanvasRenderingContext2D): void {
+  const {top, height} = u.bbox;
+  const step = HATCH_PX * devicePixelRatio;
+  ctx.strokeStyle = ink.grid;
+  ctx.lineWidth = devicePixelRatio;
+  for (const {start, end} of panel.cut ?? []) {
+    const [from, to] = [px(u, start), px(u, end)];
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(from, top, to - from, height);
+    ctx.clip();
+    ctx.beginPath();
+    for (let x = Math.max(from, u.bbox.left) - height; x < Math.min(to, u.bbox.left + u.bbox.width); x += step) {
+      ctx.moveTo(x, top + height);
+      ctx.lineTo(x + height, top);
+    }
+    ctx.stroke();
+    ctx.restore();
+  }
+}
+
+/** Boxes from the smallest to the largest value of contacts; an edge, for most are narrower than a pixel. */
+function drawRanges({u, panel, theme}: Sheet, hidden: Set<string>, ctx: CanvasRenderingContext2D): void {
+  ctx.globalAlpha = 0.3;
+  ctx.lineWidth = devicePixelRatio / 2;
+  for (const {label, colour, start, end, low, high} of panel.ranges ?? []) {
+    if (hidden.has(label)) continue;
+    ctx.fillStyle = ctx.strokeStyle = colourOf(colour, theme);
+    const box = [px(u, start), py(u, high), px(u, end) - px(u, start), py(u, low) - py(u, high)] as const;
+    ctx.fillRect(...box);
+    ctx.strokeRect(...box);
+  }
+  ctx.globalAlpha = 1;
+}
+
 /** Shades behind the curves, and a bar for each group above them. */
-export function drawBehind(sheet: Sheet): void {
+export function drawBehind(sheet: Sheet, hidden: Set<string>): void {
   const {u, panel, ink, theme} = sheet;
   const {top, height, left, width} = u.bbox;
   drawRaster(sheet);
@@ -74,6 +113,8 @@ export function drawBehind(sheet: Sheet): void {
     for (const {start, end} of panel.bands ?? []) {
       ctx.fillRect(px(u, start), top, Math.max(px(u, end) - px(u, start), 1), height);
     }
+    drawCut(sheet, ctx);
+    drawRanges(sheet, hidden, ctx);
   });
   const ratio = devicePixelRatio;
   (panel.lanes ?? []).forEach(({bars, colour}, i) => {
@@ -128,6 +169,13 @@ function drawDots({u, theme, ink}: Sheet, {x, y, colour}: Curve): void {
   ctx.fill();
 }
 
+/** Tiny dots: samples that no line joins. */
+function drawRare({u, theme}: Sheet, colour: number, points: Iterable<[number, number]>): void {
+  const r = RARE_PX * devicePixelRatio;
+  u.ctx.fillStyle = colourOf(colour, theme);
+  for (const [x, y] of points) u.ctx.fillRect(px(u, x) - r, py(u, y) - r, 2 * r, 2 * r);
+}
+
 function drawLoop({u, theme}: Sheet, curve: Curve): void {
   const {ctx} = u;
   ctx.beginPath();
@@ -165,6 +213,23 @@ function drawLabels({u, panel, ink}: Sheet): void {
   }
 }
 
+/** In the plot, so that it goes wherever its picture goes. */
+function drawStamp({u, panel: {stamp}, ink}: Sheet): void {
+  if (!stamp) return;
+  const {ctx, bbox: {left, top, width}} = u;
+  const ratio = devicePixelRatio;
+  ctx.font = FONT.replace('12px', `${10 * ratio}px`);
+  ctx.textAlign = 'right';
+  ctx.textBaseline = 'top';
+  const wide = ctx.measureText(stamp).width;
+  ctx.globalAlpha = 0.8;
+  ctx.fillStyle = ink.paper;
+  ctx.fillRect(left + width - wide - 8 * ratio, top + 2 * ratio, wide + 6 * ratio, 14 * ratio);
+  ctx.globalAlpha = 1;
+  ctx.fillStyle = ink.warn;
+  ctx.fillText(stamp, left + width - 5 * ratio, top + 4 * ratio);
+}
+
 /** Loops, marks and labels over the curves. */
 export function drawOver(sheet: Sheet, hidden: Set<string>, named: boolean): void {
   const {u, panel, ink} = sheet;
@@ -183,9 +248,12 @@ export function drawOver(sheet: Sheet, hidden: Set<string>, named: boolean): voi
       if (hidden.has(owner) || hidden.has(curve.label)) continue;
       if (curve.mark === 'start' || curve.mark === 'end') drawMarks(sheet, curve);
       else if (curve.mark === 'points') drawDots(sheet, curve);
+      else if (curve.mark === 'rare') drawRare(sheet, curve.colour, Array.from(curve.x, (x, i) => [x, curve.y[i]!]));
       else if (!panel.overTime) drawLoop(sheet, curve);
+      else drawRare(sheet, curve.colour, rarePoints(curve));
     }
     drawLabels(sheet);
+    drawStamp(sheet);
   });
   if (named && panel.overTime) drawNames(sheet, hidden);
 }

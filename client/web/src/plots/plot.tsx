@@ -35,7 +35,7 @@ interface Choosing {
 function inkOf(element: Element): Ink {
   const style = getComputedStyle(element);
   const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  return {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper')};
+  return {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper'), warn: ink('warn')};
 }
 
 /** What makes another plot necessary, rather than other data. */
@@ -74,8 +74,8 @@ function useSeen(box: {current: HTMLDivElement | null}): {draw: (draw: () => voi
 }
 
 /** What a plot shows, for those who do not see it. */
-function namesOf({title, xLabel, yLabel, curves, raster}: Panel): string {
-  return `${title}: ${raster?.label ?? yLabel} over ${xLabel}; ${raster ? `${raster.rows.length} rows as ${raster.lines ? 'lines' : 'colours'}, one a ${yLabel}` : ''}${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}`;
+function namesOf({title, xLabel, yLabel, curves, raster, stamp}: Panel): string {
+  return `${title}: ${raster?.label ?? yLabel} over ${xLabel}; ${raster ? `${raster.rows.length} rows as ${raster.lines ? 'lines' : 'colours'}, one a ${yLabel}` : ''}${curves.filter((c) => c.keyed !== false).map((c) => c.label).join(', ')}${stamp ? `; ${stamp}` : ''}`;
 }
 
 /** The attributes of a plot whose points are chosen. */

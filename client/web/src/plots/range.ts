@@ -32,7 +32,8 @@ export function yRange(panel: Panel, [from, to]: Window): Window {
     const first = Math.max(lowerBound(x, from) - 1, 0);
     return between(y, first, lowerBound(x, to) + 1);
   });
-  const found = extent(inside, panel.logY);
+  const ranges = (panel.ranges ?? []).filter(({start, end}) => end >= from && start <= to).map(({low, high}) => [low, high]);
+  const found = extent([...inside, ...ranges], panel.logY);
   if (!found) return panel.logY ? [1e-3, 1] : [0, 1];
   const [low, high] = padded(found, !!panel.logY);
   return panel.labels?.length ? [low, high + 0.1 * (high - low)] : [low, high];

@@ -29,7 +29,7 @@ export function sheetOf(canvas: HTMLCanvasElement, width: number, theme: Theme):
   ctx.scale(ratio, ratio);
   const style = getComputedStyle(canvas);
   const ink = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  return {ctx, width, height: STRIP_PX, theme, ink: {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper')}};
+  return {ctx, width, height: STRIP_PX, theme, ink: {text: ink('text'), soft: ink('soft'), grid: ink('grid'), band: ink('band'), paper: ink('paper'), warn: ink('warn')}};
 }
 
 /** Where the bodies are at a moment; where they begin if nothing is recorded yet. */

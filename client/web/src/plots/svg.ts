@@ -2,12 +2,14 @@
 
 import type uPlot from 'uplot';
 
+import look from '../../../python/contactsim/figures/words.json';
+import {isLoose, rarePoints} from '../model/coarse';
 import type {Curve, Panel} from '../model/panel';
 import {waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf} from '../ui/theme';
 import {unitOfScale} from './axes';
 import {dotted, lines, NAMED_FROM_PX} from './build';
-import {LANE_PX, pictureOf} from './layers';
+import {HATCH_PX, LANE_PX, pictureOf} from './layers';
 import {crowded, endNames, placeLabels, shortName} from './words';
 
 export interface Svg {
@@ -74,20 +76,30 @@ function dots({x: xs, y: ys, colour}: Curve, x: Frame['x'], y: Frame['y']): stri
   return `<path d="${path}" fill="${colourOf(colour, 'light')}" stroke="#fff" stroke-width="0.7"/>`;
 }
 
-function curve({u, x, y}: Frame, drawn: Curve): string {
-  const {mark, x: xs, y: ys} = drawn;
+/** Tiny dots: samples that no line joins. */
+function rare(points: [number, number][], colour: number, {x, y}: Frame): string {
+  const path = points.map(([at, value]) => `M${r(x(at) - 1)} ${r(y(value))}h2`).join('');
+  return path && `<path d="${path}" stroke="${colourOf(colour, 'light')}" stroke-width="2"/>`;
+}
+
+function curve(frame: Frame, drawn: Curve): string {
+  const {u, x, y} = frame;
+  const {mark, x: xs, y: ys, loose = []} = drawn;
   if ((mark === 'start' || mark === 'end') && crowded(u, drawn)) return '';
   if (mark === 'points') return dots(drawn, x, y);
+  if (mark === 'rare') return rare(Array.from(xs, (at, i) => [at, ys[i]!]), drawn.colour, frame);
   let path = '';
+  let pen = 'M';
   for (let i = 0; i < xs.length; ++i) {
     const [a, b] = [x(xs[i]!), y(ys[i]!)];
     if (!Number.isFinite(a) || !Number.isFinite(b)) continue;
     if (mark === 'start') path += `M${r(a + 4)} ${r(b)}a4 4 0 1 0 -8 0a4 4 0 1 0 8 0`;
     else if (mark === 'end') path += `M${r(a - 4)} ${r(b - 4)}l8 8m0 -8l-8 8`;
-    else path += `${path ? 'L' : 'M'}${r(a)} ${r(b)}`;
+    else if (isLoose(loose, xs[i]!)) pen = 'M';
+    else { path += `${pen}${r(a)} ${r(b)}`; pen = 'L'; }
     if (mark === 'linePoints') path += `m3 0a3 3 0 1 0 -6 0a3 3 0 1 0 6 0m-3 0`;
   }
-  return `<path d="${path}" ${strokeOf(drawn)}/>`;
+  return `<path d="${path}" ${strokeOf(drawn)}/>${rare(rarePoints(drawn), drawn.colour, frame)}`;
 }
 
 function waterfall({x, y: at}: Frame, raster: Raster): string {
@@ -95,7 +107,25 @@ function waterfall({x, y: at}: Frame, raster: Raster): string {
     `<path d="${Array.from(y, (value, i) => `${i ? 'L' : 'M'}${r(x(raster.time[i]!))} ${r(at(value))}`).join('')}" stroke="${colour}"/>`).join('');
 }
 
-function behind(frame: Frame, {bands = [], dottedLines = [], raster}: Panel): string {
+/** What the end of the run cuts, and between which values contacts are that have too few samples. */
+function coarse({x, y, top, height}: Frame, {cut = [], ranges = []}: Panel): string {
+  const box = (from: number, to: number, low: number, high: number) => `x="${r(from)}" y="${r(low)}" width="${r(to - from)}" height="${r(high - low)}"`;
+  return [
+    ...cut.map(({start, end}) => `<rect ${box(x(start), x(end), top, top + height)} fill="url(#cut)"/>`),
+    ...ranges.map(({colour, start, end, low, high}) =>
+      `<rect ${box(x(start), x(end), y(high), y(low))} fill="${colourOf(colour, 'light')}" stroke="${colourOf(colour, 'light')}" stroke-width="0.5" opacity="0.3"/>`),
+  ].join('');
+}
+
+const HATCH = `<pattern id="cut" width="${HATCH_PX}" height="${HATCH_PX}" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><path d="M0 0V${HATCH_PX}" stroke="${look.faint}"/></pattern>`;
+
+/** What the samples are too few for. */
+function stampOn({left, top, width}: Frame, {stamp}: Panel): string {
+  return stamp ? `<text x="${r(left + width - 5)}" y="${r(top + 12)}" text-anchor="end" font-size="10" fill="${look.map.failed}">${escape(stamp)}</text>` : '';
+}
+
+function behind(frame: Frame, panel: Panel): string {
+  const {bands = [], dottedLines = [], raster} = panel;
   const {left, top, width, height} = frame;
   const {min, max} = frame.u.scales.x!;
   const image = (colours: Raster) => `<image x="${r(left)}" y="${r(top)}" width="${r(width)}" height="${r(height)}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${pictureOf(colours, [min!, max!], Math.round(2 * width)).toDataURL()}"/>`;
@@ -103,6 +133,7 @@ function behind(frame: Frame, {bands = [], dottedLines = [], raster}: Panel): st
     raster && raster.time.length > 0 ? (raster.lines ? waterfall(frame, raster) : image(raster)) : '',
     ...bands.map(({start, end}) => `<rect x="${r(frame.x(start))}" y="${r(top)}" width="${r(Math.max(frame.x(end) - frame.x(start), 0.5))}" height="${r(height)}" fill="#000" fill-opacity=".06" stroke="none"/>`),
     ...dottedLines.map((y) => `<path d="M${r(left)} ${r(frame.y(y))}h${r(width)}" stroke="#666" stroke-dasharray="2 4"/>`),
+    coarse(frame, panel),
   ].join('');
 }
 
@@ -119,7 +150,7 @@ function names(frame: Frame, panel: Panel): string {
   const {left, top, width, height} = frame;
   const placed = placeLabels(frame.u, panel, frame.x, frame.y, (text) => 6 * text.length, 13);
   const named = overTime && frame.u.width < NAMED_FROM_PX ? [] : overTime ? endNames(frame.u, curves, top + height, 13, frame.y)
-    : curves.filter((c) => c.keyed !== false && c.mark === 'line').map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
+    : curves.filter((c) => c.keyed !== false && (c.mark === 'line' || c.mark === 'rare')).map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
   return [
     ...named.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(overTime ? shortName(c.label) : c.label)}</text>`),
     ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555">${escape(text)}</text>`),
@@ -167,11 +198,11 @@ export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
   const height = foot + LINE_PX * (key.lines + notes.length - 1) + FOOT_PX;
   const clip = `<clipPath id="in"><rect x="${r(frame.left)}" y="${r(frame.top)}" width="${r(frame.width)}" height="${r(frame.height)}"/></clipPath>`;
   const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12">
-<desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}</defs>
+<desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}${HATCH}</defs>
 <text x="${r(frame.left)}" y="18" font-size="14" font-weight="600">${escape(panel.title)}</text>
 <g>${bars(frame, panel)}${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
 <g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => curve(frame, c)).join('')}</g>
-<g>${names(frame, panel)}</g>
+<g>${names(frame, panel)}${stampOn(frame, panel)}</g>
 <g fill="none">${key.draw(foot)}</g>
 ${notes.map((text, i) => `<text x="${r(frame.left)}" y="${r(foot + LINE_PX * (key.lines + i))}" font-size="10" fill="#666">${escape(text)}</text>`).join('')}</svg>`;
   return {width, height, text};

@@ -1,0 +1,111 @@
+// What samples are too rare to show, by the rule of contactsim's figures/coarse.py: contacts between two samples, and
+// motion of which there are only points. The ledger has the extremes of every contact, however rare the samples are.
+
+import look from '../../../python/contactsim/figures/words.json';
+import {Cycle_End, Cycle_Status, type Cycle} from '../api/generated/contact/v1/job_pb';
+import type {RunPart, RunView} from './curves';
+import type {ContactModel} from './mechanics';
+import {joined, lowerBound, type Band, type Curve, type Panel, type Range} from './panel';
+
+const FEW = look.coarse.few;
+
+const timesOf = ({series}: RunPart): ArrayLike<number> => series.get('time')?.values ?? [];
+
+/** The first place in ascending values that is above x. */
+function upperBound(xs: ArrayLike<number>, x: number): number {
+  let place = lowerBound(xs, x);
+  while (place < xs.length && xs[place] === x) ++place;
+  return place;
+}
+
+/** Samples that are recorded in a second: in the mean, where the series has a part of them only. */
+function rateOf({series}: RunPart, time: ArrayLike<number>): number {
+  const samples = series.recorded ?? time.length;
+  return samples > 1 ? (samples - 1) / (time[time.length - 1]! - time[0]!) : 0;
+}
+
+/**
+ * How many samples are recorded from one time to another, at which `last` ends them. Where the series is thinned, or
+ * does not reach so far, they are not counted but told by how close samples are.
+ */
+function recordedIn(view: RunView, from: number, to: number, last: typeof lowerBound): number {
+  const time = timesOf(view);
+  const counted = !view.series.thinned && from >= time[0]! && to <= time[time.length - 1]!;
+  if (counted) return last(time, to) - lowerBound(time, from);
+  return Math.max(view.mechanics.scenario.output?.samplesPerContact ?? 0, (to - from) * rateOf(view, time));
+}
+
+/** Whether a cycle is seen. */
+export function isFine(view: RunView, {startTimeS, endTimeS}: Cycle): boolean {
+  return timesOf(view).length > 0 && recordedIn(view, startTimeS, endTimeS, upperBound) >= FEW;
+}
+
+/** Whether a cycle has too few samples; one that the end of the run cuts may have any number. */
+export function isCoarse(view: RunView, cycle: Cycle): boolean {
+  return timesOf(view).length > 0 && cycle.end !== Cycle_End.RUN_END && !isFine(view, cycle);
+}
+
+/** The cycles of some contacts. */
+function cyclesOf({cycles}: RunView, contacts: ContactModel[]): Cycle[] {
+  const names = new Set(contacts.map(({name}) => name));
+  return cycles.filter(({contact}) => names.has(contact));
+}
+
+/** How many of the cycles shown have too few samples; empty if all have enough. */
+export function stampOf(view: RunView): string {
+  const cycles = cyclesOf(view, view.mechanics.contacts);
+  const coarse = cycles.filter((cycle) => isCoarse(view, cycle)).length;
+  const have = cycles.length === 1 ? 'contact has' : 'contacts have';
+  return coarse ? `${coarse} of ${cycles.length} ${have} fewer than ${FEW} samples` : '';
+}
+
+/**
+ * Where there are fewer than FEW samples from one cycle of a contact to the next, again and again: lines from sample to
+ * sample would show a motion that never was.
+ */
+export function looseSpans(view: RunView, contacts: ContactModel[]): Band[] {
+  if (timesOf(view).length === 0) return [];
+  return joined(contacts.flatMap((contact) => {
+    const starts = cyclesOf(view, [contact]).map(({startTimeS}) => startTimeS);
+    const rare = starts.slice(1).map((next, i) => recordedIn(view, starts[i]!, next, lowerBound) < FEW);
+    return rare.slice(1).flatMap((is, i) => (is && rare[i] ? [{start: starts[i]!, end: starts[i + 2]!}] : []));
+  }));
+}
+
+/** Where the end of the run cuts cycles of contacts shown, whose peaks may be still to come. */
+export function cutSpans(view: RunView): Band[] {
+  const time = timesOf(view);
+  if (time.length === 0) return [];
+  return joined(cyclesOf(view, view.mechanics.contacts)
+    .filter(({status}) => status === Cycle_Status.CUT || status === Cycle_Status.UNFINISHED)
+    .map(({startTimeS, endTimeS}) => ({start: Math.max(startTimeS, time[0]!), end: Math.min(endTimeS, time[time.length - 1]!)})));
+}
+
+/** From which to which value something went in each cycle of a contact that has too few samples. */
+export function rangesOf(view: RunView, contact: ContactModel, colour: number, valuesOf: (cycle: Cycle) => number[]): Range[] {
+  return cyclesOf(view, [contact]).filter((cycle) => isCoarse(view, cycle)).flatMap((cycle) => {
+    const values = valuesOf(cycle);
+    const range = {label: contact.name, colour, start: cycle.startTimeS, end: cycle.endTimeS, low: Math.min(...values), high: Math.max(...values)};
+    return values.every(Number.isFinite) ? [range] : [];
+  });
+}
+
+/** Whether samples are too rare there to be joined. */
+export const isLoose = (spans: Band[], x: number) => spans.some(({start, end}) => x >= start && x <= end);
+
+/** The points of a curve that no line joins. What is dashed goes with another curve, and has none. */
+export function rarePoints({x, y, loose = [], mark}: Curve): [number, number][] {
+  if (loose.length === 0 || mark === 'dashed') return [];
+  return Array.from(x, (at, i): [number, number] => [at, y[i]!]).filter(([at]) => isLoose(loose, at));
+}
+
+/** The cycles whose starts and ends are marked: where samples are rarer than contacts, marks hide all. */
+export function outside(spans: Band[], cycles: Cycle[]): Cycle[] {
+  return cycles.filter(({startTimeS, endTimeS}) => !isLoose(spans, startTimeS) && !isLoose(spans, endTimeS));
+}
+
+/** What ranges, dots and hatches mean. */
+export function coarseNote({ranges = [], cut = [], curves}: Panel): string {
+  return [ranges.length > 0 && `pale: ${look.coarse.range}`, curves.some(({loose}) => loose?.length) && `dots: ${look.coarse.rare}`,
+    cut.length > 0 && `hatched: ${look.coarse.cut}`].filter(Boolean).map((text) => `; ${text}`).join('');
+}
