@@ -109,11 +109,10 @@ Eigen::VectorXd Block::Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& st
 }
 
 void Block::OnStep(double part) {
-  ++steps_;
   for (GroupSight& g : taken_.groups) {
     if (std::ranges::find(ids_, g.id) == ids_.end()) continue;
     g.update = part < 1 ? Iteration::Update::kDampedNewton : Iteration::Update::kNewton;
-    problem_.groups.At(g.id).iterations = steps_;
+    ++problem_.groups.At(g.id).iterations;
   }
   log_.Correct(taken_);
   taken_ = last_;

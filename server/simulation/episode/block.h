@@ -45,8 +45,7 @@ class Block final : public Residuals {
   double miss_;
   double until_ = 1e300;  // What has not ended then is open [s].
   double end_ = kNever;   // Of the block as last seen [s]; what begins later is guessed anew.
-  int steps_ = 0;
-  Sight taken_, last_;  // The pass that a step starts from, and the last one.
+  Sight taken_, last_;    // The pass that a step starts from, and the last one.
 };
 
 }  // namespace contact

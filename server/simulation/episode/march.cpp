@@ -271,7 +271,6 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   const bool ahead = precision == Precision::kAhead;
   coarse_ = ahead;
   next_.reset();
-  steps_ = 0;
   Block block(problem_, log_, ids, ahead, ahead_);
   const Eigen::VectorXd before = block.Mu();
   std::vector<bool> corrected;
@@ -280,6 +279,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   if (seen != nullptr && !seen->exact && !ahead &&
       value.valid) {  // What is coarse leads to where it is exact.
     block.Set(block.Moved(before, Step(value)));
+    block.OnStep(1);
     value = block.Begin();
   }
   if (problem_.Aborted()) return Hybrid::End::kAborted;
@@ -304,7 +304,6 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
                               .blind = unseen};
   const Hybrid::End end = hybrid.Solve(options, std::move(value), &mu);
   miss_ = hybrid.miss();
-  steps_ = hybrid.steps();
   if (end != Hybrid::End::kStalled) block.Set(mu);
   if (end == Hybrid::End::kSolved) {
     Freeze(ids, block.last());

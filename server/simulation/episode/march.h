@@ -76,7 +76,6 @@ class March {
   double guess_from_ = 0;      // What begins later is guessed anew.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   double miss_ = 0;            // What the last block missed by when it stalled.
-  int steps_ = 0;              // Of the last block.
   std::optional<Sight> next_;  // What has solved a block, and went on to the next miss.
   struct Polished {
     double mu = 0;         // When it was polished last,
