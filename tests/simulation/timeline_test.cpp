@@ -8,7 +8,6 @@ namespace contact {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 constexpr double kXi = 1e-8, kGood = 1e-3;
 

@@ -276,8 +276,11 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   std::vector<bool> corrected;
   for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);
   Residuals::Value value = seen != nullptr ? block.Begin(*seen) : block.Begin();
-  if (seen != nullptr && !seen->exact && !ahead &&
-      value.valid) {  // What is coarse leads to where it is exact.
+  int most =
+      problem_.scenario().solver.max_iterations - (ahead ? 0 : std::exchange(corrections_, 0));
+  const bool leads = seen != nullptr && !seen->exact && !ahead && value.valid;
+  if (leads && most-- <= 0) return Hybrid::End::kLimit;
+  if (leads) {  // What is coarse leads to where it is exact.
     block.Set(block.Moved(before, Step(value)));
     block.OnStep(1);
     value = block.Begin();
@@ -295,7 +298,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   Hybrid hybrid(block);
   Eigen::VectorXd mu = block.Mu();
   const HybridOptions options{.goal = goal,
-                              .most_steps = problem_.scenario().solver.max_iterations,
+                              .most_steps = most,
                               .near = ahead || ids.size() <= kSearch.at_once ? 0 : kSearch.near,
                               .slopes_at_once = ids.size() <= kSearch.at_once,
                               .most_trials = kSearch.trials,
@@ -304,6 +307,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
                               .blind = unseen};
   const Hybrid::End end = hybrid.Solve(options, std::move(value), &mu);
   miss_ = hybrid.miss();
+  if (ahead) corrections_ = hybrid.steps();
   if (end != Hybrid::End::kStalled) block.Set(mu);
   if (end == Hybrid::End::kSolved) {
     Freeze(ids, block.last());

@@ -75,6 +75,7 @@ class March {
   bool coarse_ = true;         // The next pass that looks may be.
   double guess_from_ = 0;      // What begins later is guessed anew.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
+  int corrections_ = 0;        // Of the last block that was solved ahead.
   double miss_ = 0;            // What the last block missed by when it stalled.
   std::optional<Sight> next_;  // What has solved a block, and went on to the next miss.
   struct Polished {

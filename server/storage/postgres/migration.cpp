@@ -30,10 +30,10 @@ constexpr std::array kSteps = {
     // People may say more of a job than when they created it.
     Step{6,
          "ALTER TABLE contactd.jobs"
-         " ADD COLUMN labels_crc32 bigint NOT NULL DEFAULT -1,"
-         " ADD COLUMN labels bytea NOT NULL DEFAULT '',"
-         " ADD COLUMN note_crc32 bigint NOT NULL DEFAULT -1,"
-         " ADD COLUMN note bytea NOT NULL DEFAULT '';"},
+         " ADD COLUMN IF NOT EXISTS labels_crc32 bigint NOT NULL DEFAULT -1,"
+         " ADD COLUMN IF NOT EXISTS labels bytea NOT NULL DEFAULT '',"
+         " ADD COLUMN IF NOT EXISTS note_crc32 bigint NOT NULL DEFAULT -1,"
+         " ADD COLUMN IF NOT EXISTS note bytea NOT NULL DEFAULT '';"},
 };
 
 // The lock is held to the end, so that of several programs that begin at once one does it. Tables

@@ -8,8 +8,8 @@ from cli_case import CHAIN, CliTest
 
 class ProgressTest(CliTest):
 
-    def told(self, *arguments, code=0):
-        said = self.run_it(*arguments, "--progress", "json", "-o", "name", code=code)[1]
+    def told(self, *arguments, output="name", code=0):
+        said = self.run_it(*arguments, "--progress", "json", "-o", output, code=code)[1]
         return [json.loads(line) for line in said.splitlines()]
 
     def test_run_is_told_in_lines_of_json_up_to_its_end(self):
@@ -22,7 +22,8 @@ class ProgressTest(CliTest):
         self.assertEqual(parts, sorted(parts))
 
     def test_sweep_tells_its_cells(self):
-        lines = self.told("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.5:0.9:100")
+        lines = self.told("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.5:0.9:100",
+                          output="json")
         self.assertEqual({line["kind"] for line in lines}, {"sweep"})
         self.assertEqual((lines[-1]["cells"], lines[-1]["cells_done"]), (100, 100))
         self.assertEqual((lines[-1]["cells_failed"], lines[-1]["eta_s"]), (0, 0))

@@ -73,7 +73,7 @@ class ReportTest(CliTest):
     def test_long_run_is_thinned(self):
         page = self.report(self.solve(SPRING, "--set", "end_time_s=0.5"))
         self.check_is_offline(page)
-        self.assertLess(len(page), 1_200_000)  # Of 25 000 samples with 160 cycles.
+        self.assertLess(len(page), 1_400_000)  # Of 25 000 samples with 160 cycles.
 
     def test_several_runs_are_compared(self):
         page = self.report(self.solve(CHAIN), self.solve(CHAIN, "--set", "title=<b>&"))
