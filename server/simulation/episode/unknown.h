@@ -35,6 +35,7 @@ struct Unknown {
   double speed = 0;               ///< largest |δ̇| [m/s] of its cycles; 0: unknown.
   bool corrected = false;         ///< μ is no mere guess any more.
   bool kept = false;              ///< μ is a guess that stays: see Membership::Guess.
+  int guesses = 0;                ///< How often a kept guess was poor and made again.
   bool weak = false;              ///< Its work was negligible in the last pass.
   int reopened = 0;               ///< How often it ended after all, once it was found unfinished.
   int flips = 0;                  ///< How often it became negligible, or was no more.
