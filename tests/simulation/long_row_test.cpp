@@ -104,7 +104,7 @@ TEST(LongRowTail, IsFull) {
     std::int64_t steps;
   };
   for (const auto& [balls, restitution, end, steps] :
-       {Row{40, 0.5, 0.06, 2'500'000}, Row{80, 0.7, 0.06, 800'000}, Row{70, 0.7, 0.05, 400'000}}) {
+       {Row{40, 0.5, 0.045, 1'500'000}, Row{80, 0.7, 0.06, 800'000}, Row{70, 0.7, 0.05, 400'000}}) {
     const std::vector<double> stiffnesses(balls - 1, 1e8), restitutions(balls - 1, restitution);
     Scenario scenario =
         testing::Chain(std::vector<double>(balls, 0.5), stiffnesses, restitutions, 0.2, end);
