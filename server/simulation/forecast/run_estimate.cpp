@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "simulation/forecast/first_meeting.h"
+#include "simulation/model/columns.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/observer.h"
-#include "simulation/model/columns.h"
 
 namespace contact {
 namespace {
