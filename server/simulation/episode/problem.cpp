@@ -49,18 +49,20 @@ void Problem::Begin(const State& start, double end, const std::stop_token& stop,
   stop_ = stop;
   step_limit_ = step_limit;
   aborted_ = false;
-  near_ = {};
+  coarse_ = exact_ = {};
   begun_.clear();
 }
 
-Sight Problem::Look(const State& from, Pass::Plan plan) {
+// A pass from a state that is kept, or from the start.
+Sight Problem::Look(const Kept* from, Pass::Plan plan) {
   ++passes_;
   plan.end = end_;
   plan.far = far_;
-  plan.before = &from == &near_ ? &led_ : nullptr;
-  Sight sight = pass_.Look(from, plan, stop_, step_limit_);
+  plan.before = from != nullptr ? &from->led : nullptr;
+  const State& state = from != nullptr ? from->state : *start_;
+  Sight sight = pass_.Look(state, plan, stop_, step_limit_);
   for (int i = 1; sight.disturbed; ++i) {  // From the start: the state kept may have been at rest.
-    near_ = {};
+    coarse_ = exact_ = {};
     plan.before = nullptr;
     plan.retries = i < kMostRetries;
     sight = pass_.Look(*start_, plan, stop_, step_limit_);
@@ -71,7 +73,7 @@ Sight Problem::Look(const State& from, Pass::Plan plan) {
 }
 
 Sight Problem::SeeStretch(int most_cycles) {
-  return Look(*start_, {.most_cycles = most_cycles, .first_quiet = true, .guess_from = kAlways});
+  return Look(nullptr, {.most_cycles = most_cycles, .first_quiet = true, .guess_from = kAlways});
 }
 
 // Whether the μ of a group that runs is a mere guess.
@@ -85,23 +87,23 @@ bool Problem::IsGuessed(const Sight& sight) const {
 Sight Problem::March(const std::vector<GroupId>& block, const Marching& how) {
   const double tolerance = Tolerance(how.tolerance);
   const std::vector<GroupId>& since = how.since.empty() ? block : how.since;
-  const State* from = since.empty() ? start_ : &Before(since);
-  if (from == &near_ && IsGuessed(led_)) from = start_;  // It may be guessed better by now.
+  const Kept* from = since.empty() ? nullptr : Before(since, how.tolerance);
+  if (from != nullptr && IsGuessed(from->led)) from = nullptr;  // It may be guessed better by now.
   if (aborted_) return {};
-  Sight sight = Look(*from, {.tolerance = tolerance,
-                             .most_cycles = kMostCyclesOfATrial,
-                             .guess_from = how.guess_from,
-                             .sensitive = how.slopes,
-                             .wide = how.wide,
-                             .to_miss = how.miss,
-                             .block_until = how.until,
-                             .block = block});
+  Sight sight = Look(from, {.tolerance = tolerance,
+                            .most_cycles = kMostCyclesOfATrial,
+                            .guess_from = how.guess_from,
+                            .sensitive = how.slopes,
+                            .wide = how.wide,
+                            .to_miss = how.miss,
+                            .block_until = how.until,
+                            .block = block});
   sight.exact = tolerance == 0 || tolerance <= scenario_.solver.relative_tolerance;
   seen_ = sight.time;
   return sight;
 }
 
-Motion::Pause Problem::SeeFlight() { return Look(*start_, {.until = end_, .patient = true}).pause; }
+Motion::Pause Problem::SeeFlight() { return Look(nullptr, {.until = end_, .patient = true}).pause; }
 
 // The tolerance of a pass that need not be more exact than this.
 double Problem::Tolerance(double wanted) const {
@@ -129,14 +131,17 @@ std::vector<Problem::Held> Problem::HeldIn(const State& state) const {
 }
 
 // What happens later changes nothing earlier: a pass that is to show a block may begin shortly
-// before it, at a state that is kept for the passes that follow.
-const State& Problem::Before(const std::vector<GroupId>& block) {
+// before it, at a state that is kept for the passes that follow; null: at the start. A pass that
+// goes ahead begins where one as coarse has been.
+const Problem::Kept* Problem::Before(const std::vector<GroupId>& block, double tolerance) {
+  Kept& kept = tolerance > 0 ? coarse_ : exact_;
   const auto has_begun = [&](const State& state) {
     return std::ranges::any_of(block, [&](const GroupId& id) { return HasBegun(state, id); });
   };
-  const bool keeps = near_.time > start_->time && !has_begun(near_) && held_ == HeldIn(near_);
-  const State& from = keeps ? near_ : *start_;
-  const auto kept = [&]() -> const State& { return near_.positions.empty() ? *start_ : from; };
+  const bool keeps =
+      !kept.state.positions.empty() && !has_begun(kept.state) && kept.held == HeldIn(kept.state);
+  const Kept* from = keeps ? &kept : nullptr;
+  const double start = start_->time, from_time = keeps ? kept.state.time : start;
   double begin = kNever;  // By the last pass that saw it: with other μ it may be another.
   for (const GroupId& id : block) {
     begin = std::min(begin, groups.At(id).start_time);
@@ -144,27 +149,28 @@ const State& Problem::Before(const std::vector<GroupId>& block) {
       begin = std::min(begin, known->second);
     }
   }
-  if (begin - from.time < kWorth * (seen_ - start_->time)) return from;
-  const double until = begin - kShortly * (begin - start_->time);
-  const Sight sight =
-      Look(from, {.until = until, .most_cycles = kMostCyclesOfATrial, .block = {block.front()}});
-  if (sight.pause != Motion::Pause::kTimeUp) return kept();
+  if (begin - from_time < kWorth * (seen_ - start)) return from;
+  Sight led = Look(from, {.tolerance = Tolerance(tolerance),
+                          .until = begin - kShortly * (begin - start),
+                          .most_cycles = kMostCyclesOfATrial,
+                          .block = {block.front()}});
+  if (kept.state.positions.empty()) from = nullptr;  // A rest should have ended earlier.
+  if (led.pause != Motion::Pause::kTimeUp) return from;
   State reached = motion_.Save();
   if (has_begun(reached)) {
     for (const GroupId& id : block) {
       if (HasBegun(reached, id)) begun_[id] = groups.At(id).start_time;
     }
-    return kept();
+    return from;
   }
-  near_ = std::move(reached);
-  led_ = sight;
-  held_ = HeldIn(near_);
-  return near_;
+  std::vector<Held> held = HeldIn(reached);
+  kept = {.state = std::move(reached), .held = std::move(held), .led = std::move(led)};
+  return &kept;
 }
 
 Sight Problem::Evaluate(const std::vector<GroupId>& block, bool sensitive, double until,
                         double tolerance) {
-  const State& from = Before(block);
+  const Kept* from = Before(block, 0);
   if (aborted_) return {};
   return Look(from, {.tolerance = Tolerance(tolerance),
                      .until = until,

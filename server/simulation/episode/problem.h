@@ -61,8 +61,15 @@ class Problem {
  private:
   // What was known of a group when a state was kept.
   using Held = std::tuple<GroupId, double, double, bool>;
-  Sight Look(const State& from, Pass::Plan plan);
-  const State& Before(const std::vector<GroupId>& block);
+  // A state shortly before the last block, if all that begins before is still what is held, and
+  // what led to it. It is empty where none is kept.
+  struct Kept {
+    State state;
+    std::vector<Held> held;
+    Sight led;
+  };
+  Sight Look(const Kept* from, Pass::Plan plan);
+  const Kept* Before(const std::vector<GroupId>& block, double tolerance);
   bool IsGuessed(const Sight& sight) const;
   std::vector<Held> HeldIn(const State& state) const;
   double Tolerance(double wanted) const;
@@ -72,9 +79,7 @@ class Problem {
   Pass pass_;
   const bool swings_;  // Whether a load or a drive is a sine.
   const State* start_ = nullptr;
-  State near_;                       // Shortly before the last block, if
-  std::vector<Held> held_;           // all that begins before is still this,
-  Sight led_;                        // and was seen so.
+  Kept coarse_, exact_;  // Of passes that go ahead, and others: they may see other cycles.
   std::map<GroupId, double> begun_;  // Earlier starts [s] of groups than other passes have seen.
   double seen_ = 0;                  // How far the last pass of the march went [s].
   double end_ = 0, far_ = 0;
