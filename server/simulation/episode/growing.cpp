@@ -146,10 +146,7 @@ void Growing::Decide(const GroupId& id, Root root) const {
 }
 
 void Growing::Force(const GroupId& id) {
-  const Sight sight = problem_.Evaluate({id}, false, kForever);
-  const GroupSight* g = sight.Find(id);
-  const bool misses = g != nullptr && problem_.groups.Misses(*g, problem_.tolerance());
-  if (problem_.Aborted() || !misses || Grow(id, Growth::kNoProgress)) return;
+  if (Grow(id, Growth::kNoProgress) || problem_.Aborted()) return;
   problem_.groups.At(id).given_up = true;
 }
 

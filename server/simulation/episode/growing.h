@@ -23,7 +23,7 @@ class Growing {
   bool Answer(const GroupSight& group, Root root);
   /// Says of a group that cannot grow what it is.
   void Decide(const GroupId& id, Root root) const;
-  /// Grows a group that misses, for lack of progress; where it cannot grow it is given up.
+  /// Grows a group for lack of progress; where it cannot grow it is given up.
   void Force(const GroupId& id);
   /// Takes up again a group that begins `before` [s] and was found to have no solution, where that
   /// does not hold with what is now around it. False: there is none.
