@@ -71,6 +71,34 @@ TEST_F(TimelineTest, WhatIsSettledOrDecidedLeavesTheBlock) {
   EXPECT_THAT(Read().Block(miss, 0, 30), ElementsAre(Of(2)));
 }
 
+TEST_F(TimelineTest, WhatWaitsIsNoMissAndInNoBlock) {
+  Add(0, 5, 0.1);
+  groups_.At(Of(0)).waits = true;
+  const GroupSight& miss = Add(1, 6, 0.1);
+  EXPECT_EQ(Read().FirstMiss(kGood)->id, Of(1));
+  EXPECT_THAT(Read().Block(miss, 8, 30), ElementsAre(Of(1)));
+}
+
+TEST_F(TimelineTest, APoorGuessLeavesTheTurnToWhatBeganBeforeIt) {
+  Add(0, 5, 0.1);
+  Add(1, 3, 0.5);  // Of a μ that is far off, and ends too early.
+  EXPECT_EQ(Read().FirstMiss(kGood)->id, Of(0));
+  EXPECT_THAT(Read().Block(sight_.groups[0], 8, 30), ElementsAre(Of(0)));
+  groups_.At(Of(1)).corrected = true;
+  EXPECT_EQ(Read().FirstMiss(kGood)->id, Of(1));
+  EXPECT_THAT(Read().Block(sight_.groups[0], 8, 30), ElementsAre(Of(1), Of(0)));
+}
+
+TEST_F(TimelineTest, AMissIsShownWithWhatOverlapsItOrMoreThanAFew) {
+  Add(0, 2, 0.1);
+  EXPECT_FALSE(Read().ShowsMiss(0.2, 8));
+  EXPECT_TRUE(Read().ShowsMiss(kGood, 8));
+  Add(1, 4, 0);
+  Add(3, 0, 0).ended = false;  // Overlaps what the miss overlaps, and still runs.
+  EXPECT_FALSE(Read().ShowsMiss(kGood, 8));
+  EXPECT_TRUE(Read().ShowsMiss(kGood, 2));
+}
+
 TEST_F(TimelineTest, SolvedIsWhatMayStillBePolished) {
   Add(0, 1, 0);
   Add(2, 3, 1e-4);

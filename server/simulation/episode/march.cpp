@@ -1,6 +1,5 @@
 #include "simulation/episode/march.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,15 +7,6 @@
 #include "simulation/episode/search_options.h"
 
 namespace contact {
-namespace {
-
-Eigen::VectorXd Step(const Residuals::Value& value) {
-  const Eigen::VectorXd step = -value.slopes.partialPivLu().solve(value.residuals);
-  return step.allFinite() ? step : Eigen::VectorXd(-value.residuals);
-}
-
-}  // namespace
-
 bool March::IsSettled(const GroupId& id) const {
   const auto polished = polished_.find(id);
   return polished != polished_.end() && polished->second.settled;
@@ -32,7 +22,7 @@ Sight March::Look(const Ids& since) {
                              .slopes = coarse_,
                              .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
                              .miss = ahead_,
-                             .guess_from = guess_from_});
+                             .guess_from = 0});
 }
 
 // What a pass tells of each group. Returns those that have become negligible or are no more, for
@@ -67,7 +57,6 @@ March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
   ahead_ = kSearch.ahead_miss;
-  guess_from_ = 0;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
   TakeUp();
@@ -209,15 +198,14 @@ void March::Settle(const Ids& ids) {
 
 // Solves the first group that misses with what overlaps it, well enough to go on.
 void March::Advance(const Sight& sight, const GroupSight& miss) {
-  coarse_ = true;
   ahead_ = SeesAll(sight) ? kSearch.last_miss : kSearch.ahead_miss;
   SolveFirst(sight, miss, ahead_, Precision::kAhead);
   if (next_ == std::nullopt) coarse_ = true;
 }
 
-// Solves a group with what overlaps it, few of these at once if that helps; false: it stalls, and
+// Solves a group with what overlaps it, few of these at once if that helps; where that stalls it
 // has its verdict.
-bool March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how) {
+void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how) {
   const Timeline timeline = Read(sight);
   const GroupSight group = miss;
   const Ids block = timeline.Block(miss, 0, kSearch.block);
@@ -229,15 +217,14 @@ bool March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     const Hybrid::End end =
         SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
     if (end == Hybrid::End::kLimit) GiveUp(ids);
-    if (problem_.Aborted() || (end != Hybrid::End::kStalled)) return true;
+    if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
     if (blurs_) break;
   }
   if (ahead && (blurs_ || miss_ < kSearch.blurred)) {
     const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
-    if (problem_.Aborted() || end != Hybrid::End::kStalled) return true;
+    if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
   }
   Verdict(group, block, goal, how);
-  return false;
 }
 
 // Whether this pass has the slopes of a block.
@@ -250,7 +237,7 @@ bool March::Has(const Ids& ids, const Sight& sight) const {
 
 // Which groups of a block a whole step would move: what it would not leaves the block.
 std::vector<bool> March::Moves(const Residuals::Value& value, double goal) {
-  const Eigen::ArrayXd step = Step(value).array().abs();
+  const Eigen::ArrayXd step = Hybrid::NewtonStep(value).array().abs();
   std::vector<bool> moves(static_cast<std::size_t>(step.size()));
   const double least = kSearch.influence * goal * std::min(1.0, step.maxCoeff());
   for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -281,7 +268,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   const bool leads = seen != nullptr && !seen->exact && !ahead && value.valid;
   if (leads && most-- <= 0) return Hybrid::End::kLimit;
   if (leads) {  // What is coarse leads to where it is exact.
-    block.Set(block.Moved(before, Step(value)));
+    block.Set(block.Moved(before, Hybrid::NewtonStep(value)));
     block.OnStep(1);
     value = block.Begin();
   }
@@ -323,15 +310,14 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   return end;
 }
 
-// What was guessed of groups that overlap a solved block stays as it is: to guess anew undoes the
-// solution.
+// What was guessed of groups that overlap a solved block stays as it is, unless it is poor: to
+// guess anew undoes the solution.
 void March::Freeze(const Ids& ids, const Sight& sight) {
   double end = 0;
   for (const GroupId& id : ids) {
     if (const GroupSight* g = sight.Find(id)) end = std::max(end, g->end_time);
   }
   for (auto& [id, unknown] : problem_.groups.known()) unknown.kept |= unknown.start_time < end;
-  guess_from_ = 0;
 }
 
 // The block of a group stalls: what the group alone comes to, with all others held, decides.

@@ -59,7 +59,7 @@ class March {
   bool Has(const Ids& ids, const Sight& sight) const;
   void Freeze(const Ids& ids, const Sight& sight);
   void SolveStrictly(const Ids& open);
-  bool SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how);
+  void SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how);
   void Verdict(const GroupSight& seen, const Ids& ids, double goal, Precision how);
   bool Waits(const GroupSight& group, const Sight& sight);
   bool TakeUp();
@@ -73,7 +73,6 @@ class March {
   bool rejected_ = false;
   double ahead_ = 0;           // The miss to which blocks are solved ahead.
   bool coarse_ = true;         // The next pass that looks may be.
-  double guess_from_ = 0;      // What begins later is guessed anew.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   int corrections_ = 0;        // Of the last block that was solved ahead.
   double miss_ = 0;            // What the last block missed by when it stalled.

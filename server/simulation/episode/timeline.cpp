@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/episode/search_options.h"
 #include "simulation/model/columns.h"
 
 namespace contact {
 namespace {
-
-constexpr std::size_t kNoneYet = static_cast<std::size_t>(-1);
 
 std::vector<GroupId> InOrderOfEnds(std::vector<const GroupSight*> groups) {
   std::ranges::sort(groups, {}, &GroupSight::end_time);
@@ -42,15 +41,15 @@ bool Timeline::IsPoor(const GroupSight& g) const {
   return unknown != nullptr && !unknown->corrected && std::abs(g.Miss()) > kSearch.astray;
 }
 
-// What the first miss overlaps, transitively, is widened by what runs still.
+// Widens the span of the first miss by all that overlaps it, until no more comes to it.
 bool Timeline::ShowsMiss(double least, std::size_t few) const {
   const GroupSight* miss = FirstMiss(least);
   if (miss == nullptr) return false;
   double start = miss->start_time, end = miss->end_time;
-  std::size_t overlap = 0;
+  std::size_t overlap = 0, before = 0;
   bool ended = true;
-  for (std::size_t before = kNoneYet; overlap != before;) {
-    before = overlap, overlap = 0;
+  do {
+    before = std::exchange(overlap, 0);
     for (const GroupSight& g : sight_.groups) {
       if (g.weak || !g.sought || g.start_time >= std::min(end, end_)) continue;
       if (g.ended && g.end_time <= start) continue;
@@ -59,7 +58,7 @@ bool Timeline::ShowsMiss(double least, std::size_t few) const {
       start = std::min(start, g.start_time);
       if (g.ended) end = std::max(end, g.end_time);
     }
-  }
+  } while (overlap != before);
   return ended || overlap > few;
 }
 

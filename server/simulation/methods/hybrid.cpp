@@ -13,9 +13,9 @@ constexpr double kFall = 0.3;
 
 }  // namespace
 
-Eigen::VectorXd Hybrid::NewtonStep() const {
-  const Eigen::VectorXd step = -now_.slopes.partialPivLu().solve(now_.residuals);
-  return step.allFinite() ? step : Eigen::VectorXd(-now_.residuals);
+Eigen::VectorXd Hybrid::NewtonStep(const Residuals::Value& value) {
+  const Eigen::VectorXd step = -value.slopes.partialPivLu().solve(value.residuals);
+  return step.allFinite() ? step : Eigen::VectorXd(-value.residuals);
 }
 
 // Whether tangents lead below −1 of an unknown twice in a row: in a coordinate such as ln μ to
@@ -40,7 +40,7 @@ void Hybrid::Learn(Residuals::Value value, const Eigen::VectorXd& step) {
 
 // One step, shortened until the merit falls enough; false: none helps.
 bool Hybrid::Correct(Eigen::VectorXd* x) {
-  const Eigen::VectorXd step = NewtonStep();
+  const Eigen::VectorXd step = NewtonStep(now_);
   if (options_.limited && Sinks(step)) return false;
   const bool near = now_.miss < options_.near;
   double part = 1;
@@ -82,7 +82,7 @@ Hybrid::End Hybrid::Solve(const HybridOptions& options, Residuals::Value at, Eig
     if (true_ && now_.miss * now_.miss <= options.blind) {
       equations_.OnStep(1);
       ++steps_;
-      *x = equations_.Moved(*x, NewtonStep());
+      *x = equations_.Moved(*x, NewtonStep(now_));
       return End::kUnseen;
     }
     if (Correct(x)) continue;

@@ -58,6 +58,9 @@ class Hybrid {
   /// Goes on from x, where the equations are known to have the value `at`, with slopes.
   End Solve(const HybridOptions& options, Residuals::Value at, Eigen::VectorXd* x);
 
+  /// Newton's step from a value with slopes; where these are singular the residuals back.
+  static Eigen::VectorXd NewtonStep(const Residuals::Value& value);
+
   int steps() const { return steps_; }
   double miss() const { return now_.miss; }
 
@@ -65,7 +68,6 @@ class Hybrid {
   bool Sinks(const Eigen::VectorXd& step);
   bool Correct(Eigen::VectorXd* x);
   void Learn(Residuals::Value value, const Eigen::VectorXd& step);
-  Eigen::VectorXd NewtonStep() const;
 
   Residuals& equations_;
   HybridOptions options_;
