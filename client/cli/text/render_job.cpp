@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <ranges>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -71,9 +71,9 @@ double InSeconds(const google::protobuf::Duration& span) {
 std::string Remarks(const v1::Job& job) {
   std::string text = job.labels().empty() ? "" : "labels: " + OneLine(LabelsText(job)) + "\n";
   const char* begin = "note: ";
-  for (const auto line : std::views::split(job.note(), '\n')) {
-    text += begin + OneLine(std::string(line.begin(), line.end())) + "\n";
-    begin = "      ";
+  std::istringstream note(job.note());
+  for (std::string line; std::getline(note, line); begin = "      ") {
+    text += begin + OneLine(line) + "\n";
   }
   return text;
 }
