@@ -287,6 +287,25 @@ TEST(Episode, ALongRowIsSolvedInParts) {
   EXPECT_LT(r.outcome.energy_residual, 1e-9);
 }
 
+// What a support and a sine press on a wall makes cycles for ever: each begins where the one before
+// ends, and has its μ. What is solved must be told, and solved at a price that does not grow.
+TEST(Episode, WhatIsPressedForEverIsSolvedAndToldBitByBit) {
+  Scenario s = testing::SpringWall();
+  s.loads = {{.body = 0, .amplitude = 250, .angular_frequency = 2000}};
+  s.end_time = 900;
+  std::vector<double> times;
+  for (const std::int64_t steps : {5'000, 10'000, 20'000}) {
+    s.solver.max_steps = steps;
+    const Record r = RunAndRecord(s);
+    ASSERT_EQ(r.outcome.end, Outcome::End::kBudgetSteps);
+    ASSERT_FALSE(r.cycles.empty());
+    for (const Cycle& cycle : r.cycles) EXPECT_EQ(cycle.status, Cycle::Status::kConverged);
+    times.push_back(r.cycles.back().end_time);
+  }
+  EXPECT_GT(times[0], 0.05);
+  EXPECT_GT(times[2] - times[1], 1.5 * (times[1] - times[0]));
+}
+
 // One dimensionless solution for all stiffnesses, velocities and sizes.
 TEST(Episode, AnUnloadedChainIsScaleInvariant) {
   const Record base = RunAndRecord(testing::TripleChain());

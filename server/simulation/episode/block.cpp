@@ -71,8 +71,10 @@ Residuals::Value Block::Of(const Sight& sight, bool slopes) const {
   Value value{.residuals = Eigen::VectorXd::Zero(n), .slopes = {}};
   if (slopes) value.slopes = Eigen::MatrixXd::Identity(n, n);
   value.valid = sight.pause != Motion::Pause::kNumeric;
+  std::vector<const GroupSight*> seen;
+  for (const GroupId& id : ids_) seen.push_back(sight.Find(id));
   for (Eigen::Index i = 0; i < n; ++i) {
-    const GroupSight* g = sight.Find(ids_[static_cast<std::size_t>(i)]);
+    const GroupSight* g = seen[static_cast<std::size_t>(i)];
     if (g == nullptr) continue;  // It came to nothing.
     const bool known = g->ended && std::isfinite(g->residual);
     const double r = known ? g->residual : kOpenResidual;
@@ -82,7 +84,7 @@ Residuals::Value Block::Of(const Sight& sight, bool slopes) const {
     value.residuals[i] = r;
     if (!slopes || g->column == kNone) continue;
     for (Eigen::Index j = 0; j < n; ++j) {
-      const GroupSight* by = sight.Find(ids_[static_cast<std::size_t>(j)]);
+      const GroupSight* by = seen[static_cast<std::size_t>(j)];
       const bool moves = by != nullptr && by->column != kNone && by->column < g->gradient.size();
       value.slopes(i, j) = moves ? g->gradient[by->column] * by->mu : 0;
     }

@@ -94,7 +94,8 @@ Sight Pass::Look(const State& start, const Plan& plan, const std::stop_token& st
   } while (sight_.pause == Motion::Pause::kQuiet && !plan.first_quiet && !IsOpen() && !enough_ &&
            (motion_.time() < plan.end || running_ > 0 || !plan.block.empty()));
   sight_.time = motion_.time();
-  sight_.crowded = cycles_ >= plan.most_cycles && sight_.pause == Motion::Pause::kEnough;
+  const bool parts = plan.to_miss > 0 && motion_.time() < plan.end && IsLong();
+  sight_.crowded = (cycles_ >= plan.most_cycles || parts) && sight_.pause == Motion::Pause::kEnough;
   return std::move(sight_);
 }
 
@@ -267,8 +268,12 @@ bool Pass::Enough() const {
   const bool seen = BlockHasEnded();
   if (!plan_.block.empty() && (!seen || plan_.to_miss == 0)) return seen;
   if (running_ == 0 && motion_.time() >= plan_.end) return true;
-  return plan_.to_miss > 0 && ShowsMiss();
+  return plan_.to_miss > 0 && (IsLong() || ShowsMiss());
 }
+
+// Whether what has been seen is a block's worth of groups, and overlaps nothing that comes later:
+// what is pressed may go on for ever.
+bool Pass::IsLong() const { return running_ == 0 && sight_.groups.size() >= kSearch.block; }
 
 // A cycle begins or ends.
 void Pass::Stir(double time) {

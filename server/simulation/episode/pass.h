@@ -65,6 +65,7 @@ class Pass final : public CycleHost {
   bool Creeps() const;
   bool SeesFar() const;
   bool Enough() const;
+  bool IsLong() const;
   bool BlockHasEnded() const;
   bool ShowsMiss() const;
 
