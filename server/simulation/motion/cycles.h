@@ -64,6 +64,7 @@ class Cycles {
   void Wake(int contact, CycleHost& host);
   /// Whether a contact that rested is let go where its cycle starts, and what becomes of it then.
   bool IsLetGo(int contact) const;
+  double ForceOfWaiting(int contact) const;
   void Release(int contact, CycleHost& host);
   /// Ends the cycle of a contact at this instant.
   void EndCycle(ContactState& state, Cycle::End end, CycleHost& host);
