@@ -110,15 +110,6 @@ class DoorTest : public testing::Test {
     v1::Job job;
     return stub.GetJob(&context, request, &job).ok() && job.name() == name;
   }
-  template <class Condition>
-  static bool Eventually(Condition condition) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(2ms);
-    }
-    return true;
-  }
 
   EchoService service_;
   std::unique_ptr<grpc::Server> server_;

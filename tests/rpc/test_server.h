@@ -78,17 +78,6 @@ inline std::string Reason(const grpc::Status& status) {
   return "";
 }
 
-/// Waits for what only shows when looked at.
-template <class Condition>
-bool Eventually(Condition condition) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
-
 /// Two balls that meet once.
 inline v1::Scenario Collision() {
   v1::Scenario scenario;

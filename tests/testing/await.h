@@ -5,12 +5,24 @@
 #include <future>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace contact {
 
 /// Far more than any test needs: reached only by a hang.
 inline constexpr std::chrono::seconds kPatience{60};
+
+/// Waits for what only shows when looked at.
+template <class Condition>
+bool Eventually(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
 
 /// Turns a call with a callback into one that waits for what the callback gets.
 template <class T>
