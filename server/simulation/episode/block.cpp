@@ -98,14 +98,10 @@ Residuals::Value Block::At(const Eigen::VectorXd& x, bool slopes) {
   return Of(last_, slopes);
 }
 
-// No further than where the contact can feel it.
 Eigen::VectorXd Block::Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& step) const {
   Eigen::VectorXd there = x;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    double& mu = there[Index(i)];
-    const GroupSight* g = taken_.Find(ids_[i]);
-    const double most = g != nullptr && g->ended ? std::max(mu, problem_.MostMu(*g)) : kNever;
-    mu = std::min(mu * (1 + std::clamp(step[Index(i)], kLeastChange, kMostChange)), most);
+    there[Index(i)] *= 1 + std::clamp(step[Index(i)], kLeastChange, kMostChange);
   }
   return there;
 }
