@@ -32,6 +32,10 @@ bool IsFull(const Record& run) {
   return run.outcome.end == Outcome::End::kFinished && run.outcome.all_converged;
 }
 
+Scenario Rolled(std::string_view name, unsigned seed) {
+  return Rolled(*std::ranges::find(Machines(), name, &Machine::name), seed);
+}
+
 std::string NameOf(const Machine& machine, unsigned seed) {
   return std::string(machine.name) + ' ' + std::to_string(seed);
 }
@@ -77,10 +81,8 @@ TEST(Machines, AreRightWhereStepsEndAtEvents) {
                                    {"press", 9U},
                                    {"piston", 3U},
                                    {"piston", 9U}}) {
-    const auto& machines = Machines();
-    const auto machine = std::ranges::find(machines, std::string_view(name), &Machine::name);
-    SCOPED_TRACE(NameOf(*machine, seed));
-    const Scenario s = Rolled(*machine, seed);
+    SCOPED_TRACE(name + std::string(" ") + std::to_string(seed));
+    const Scenario s = Rolled(name, seed);
     const Ledger run = RunForLedger(s);
     if (!kOptimized && run.outcome.end == Outcome::End::kBudgetSteps) continue;
     EXPECT_TRUE(IsFull(run)) << run.outcome.message;
@@ -95,11 +97,20 @@ TEST(Machines, AreRightWhereStepsEndAtEvents) {
 TEST(Machines, AreSolvedWhereAllCreeps) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
   for (const auto& [name, seed] : {std::pair("moved", 153U), {"press", 14U}}) {
-    const auto& machines = Machines();
-    const auto machine = std::ranges::find(machines, std::string_view(name), &Machine::name);
-    Scenario s = Rolled(*machine, seed);
+    Scenario s = Rolled(name, seed);
     s.solver.max_steps = 150'000;
-    EXPECT_TRUE(IsFull(RunForLedger(s))) << NameOf(*machine, seed);
+    EXPECT_TRUE(IsFull(RunForLedger(s))) << name << ' ' << seed;
+  }
+}
+
+// Two coarse passes may see other motions with the same μ, so that blocks take turns without end
+// (stack 6); and a group that was guessed by no pass yet has no μ to keep (placed 7).
+TEST(Machines, AreSolvedWherePassesDiffer) {
+  if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
+  for (const auto& [name, seed] : {std::pair("stack", 6U), {"placed", 7U}}) {
+    Scenario s = Rolled(name, seed);
+    s.solver.max_steps = 600'000;
+    EXPECT_TRUE(IsFull(RunForLedger(s))) << name << ' ' << seed;
   }
 }
 

@@ -7,6 +7,14 @@
 #include "simulation/episode/search_options.h"
 
 namespace contact {
+namespace {
+
+// A group misses by this many goals in one pass and by none in the next with the same μ: the two
+// see other motions.
+constexpr double kUnlike = 2;
+
+}  // namespace
+
 bool March::IsSettled(const GroupId& id) const {
   const auto polished = polished_.find(id);
   return polished != polished_.end() && polished->second.settled;
@@ -20,7 +28,7 @@ Timeline March::Read(const Sight& sight) const {
 Sight March::Look(const Ids& since) {
   return problem_.March({}, {.since = since,
                              .slopes = coarse_,
-                             .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
+                             .tolerance = coarse_ && !exactly_ ? kSearch.ahead_tolerance : 0,
                              .miss = ahead_,
                              .guess_from = 0});
 }
@@ -56,6 +64,7 @@ March::Ids March::Note(const Sight& sight) {
 March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
+  exactly_ = false;
   ahead_ = kSearch.ahead_miss;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
@@ -217,7 +226,10 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     const Hybrid::End end =
         SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
     if (end == Hybrid::End::kLimit) GiveUp(ids);
-    if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
+    const bool unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
+                        std::abs(group.Miss()) > kUnlike * goal;
+    if (unlike && !std::exchange(exactly_, true)) return;
+    if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
     if (blurs_) break;
   }
   if (ahead && (blurs_ || miss_ < kSearch.blurred)) {
@@ -258,7 +270,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   const bool ahead = precision == Precision::kAhead;
   coarse_ = ahead;
   next_.reset();
-  Block block(problem_, log_, ids, ahead, ahead_);
+  Block block(problem_, log_, ids, ahead && !exactly_, ahead_);
   const Eigen::VectorXd before = block.Mu();
   std::vector<bool> corrected;
   for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);

@@ -73,6 +73,7 @@ class March {
   bool rejected_ = false;
   double ahead_ = 0;           // The miss to which blocks are solved ahead.
   bool coarse_ = true;         // The next pass that looks may be.
+  bool exactly_ = false;       // Coarse passes see motions that differ: none is coarse any more.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   int corrections_ = 0;        // Of the last block that was solved ahead.
   double miss_ = 0;            // What the last block missed by when it stalled.

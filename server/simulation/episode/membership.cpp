@@ -91,7 +91,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
 // guessed of them then follows from guesses alone. With a μ that is too small they rattle without
 // end. In packings guesses follow from loads, and stay.
 void Membership::Guess(Unknown& unknown, double mu) const {
-  if (unknown.kept && IsSought(scenario_, unknown.id.contact)) {
+  if (unknown.kept && unknown.first_mu > 0 && IsSought(scenario_, unknown.id.contact)) {
     const bool poor = std::abs(mu - unknown.mu) > kPoorShare * unknown.mu;
     if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kGuesses) return;
     ++unknown.guesses;
