@@ -10,10 +10,14 @@ namespace contact {
 namespace {
 
 // A group misses by this many goals in one pass and by none in the next with the same μ: the two
-// see other motions.
+// see other motions. After so many of these no pass is coarse any more: blocks may take turns
+// without end. After the first, LongRowTail's 40 balls take 1.5 times the steps.
 constexpr double kUnlike = 2;
+constexpr int kMostUnlike = 3;
 
 }  // namespace
+
+bool March::IsExact() const { return unlike_ >= kMostUnlike; }
 
 bool March::IsSettled(const GroupId& id) const {
   const auto polished = polished_.find(id);
@@ -28,7 +32,7 @@ Timeline March::Read(const Sight& sight) const {
 Sight March::Look(const Ids& since) {
   return problem_.March({}, {.since = since,
                              .slopes = coarse_,
-                             .tolerance = coarse_ && !exactly_ ? kSearch.ahead_tolerance : 0,
+                             .tolerance = coarse_ && !IsExact() ? kSearch.ahead_tolerance : 0,
                              .miss = ahead_,
                              .guess_from = 0});
 }
@@ -64,7 +68,7 @@ March::Ids March::Note(const Sight& sight) {
 March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
-  exactly_ = false;
+  unlike_ = 0;
   ahead_ = kSearch.ahead_miss;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
@@ -228,7 +232,7 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     if (end == Hybrid::End::kLimit) GiveUp(ids);
     const bool unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
                         std::abs(group.Miss()) > kUnlike * goal;
-    if (unlike && !std::exchange(exactly_, true)) return;
+    if (unlike && !IsExact()) return void(++unlike_);
     if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
     if (blurs_) break;
   }
@@ -270,7 +274,7 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   const bool ahead = precision == Precision::kAhead;
   coarse_ = ahead;
   next_.reset();
-  Block block(problem_, log_, ids, ahead && !exactly_, ahead_);
+  Block block(problem_, log_, ids, ahead && !IsExact(), ahead_);
   const Eigen::VectorXd before = block.Mu();
   std::vector<bool> corrected;
   for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);

@@ -41,6 +41,7 @@ class March {
 
   Sight Look(const Ids& since = {});
   Ids Note(const Sight& sight);
+  bool IsExact() const;
   bool IsSettled(const GroupId& id) const;
   Timeline Read(const Sight& sight) const;
   bool IsEnough(const Sight& sight, const GroupSight* miss) const;
@@ -73,7 +74,7 @@ class March {
   bool rejected_ = false;
   double ahead_ = 0;           // The miss to which blocks are solved ahead.
   bool coarse_ = true;         // The next pass that looks may be.
-  bool exactly_ = false;       // Coarse passes see motions that differ: none is coarse any more.
+  int unlike_ = 0;             // Coarse passes that saw other motions with the same μ.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   int corrections_ = 0;        // Of the last block that was solved ahead.
   double miss_ = 0;            // What the last block missed by when it stalled.

@@ -95,6 +95,8 @@ class Independent {
   }
   // Whether the run begins with it: it may have any velocity then.
   static bool StartsPressed(const Cycle& c) { return c.start_time == 0 && c.start_deformation > 0; }
+  // Else the run shows too little of its swing for a measure of what it begins with.
+  static bool HasTurned(const Cycle& c) { return !std::isnan(c.max_deformation); }
   // The largest change of its deformation.
   static double Swing(const Cycle& c) {
     return Deepest(c) - std::min(c.start_deformation, c.end_deformation);
@@ -176,7 +178,7 @@ class Independent {
     const double rate = motion_.Rate(c.contact);
     if (Counts(c) && c.kind == Cycle::Kind::kCollision) {
       Miss(&Disagreement::approach, std::abs(rate - c.approach_velocity) / scale.speed, c, "δ̇⁻");
-    } else if (Counts(c) && !StartsPressed(c)) {
+    } else if (Counts(c) && !StartsPressed(c) && HasTurned(c)) {
       Miss(&Disagreement::rest, StartEnergy(c, rate) / (scale.speed * scale.speed), c,
            "motion at the start");
     }
