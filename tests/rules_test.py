@@ -30,8 +30,7 @@ OWN_CLOCK = {
 # Tests that may sleep, and why.
 SLEEPS = {
     "tests/rpc/watch_stream_test.cpp": "plays clients that stall on real sockets",
-    "tests/gateway/door_test.cpp": "polls what sockets tell nobody",
-    "tests/rpc/test_server.h": "polls what gRPC tells nobody",
+    "tests/testing/await.h": "polls what sockets, gRPC and a store at rest tell nobody",
 }
 # Programs that measure or load a server from outside: no unit tests.
 NOT_UNIT = ("tests/benchmark/", "tests/fault/")
