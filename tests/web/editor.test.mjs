@@ -79,6 +79,15 @@ test('a template takes no text away: it is one step back', async () => {
   await hold(async () => await editor.inputValue() === own);
 });
 
+test('a text that was just written is there again after a link and Back', async () => {
+  const faster = chain.replace('velocity_m_per_s: 0.2', 'velocity_m_per_s: 0.7');
+  await editor.fill(faster);
+  await page.getByRole('link', {name: 'Runs'}).first().click();
+  await hold(() => !new URL(page.url()).pathname.startsWith('/new'));
+  await page.goBack();
+  await hold(async () => await editor.inputValue() === faster);
+});
+
 test('what is copied for the command line runs on the server of the page', {skip: !process.env.CONTACTCTL && 'needs CONTACTCTL'}, async () => {
   await page.getByText('The server accepts it.').waitFor();
   await page.getByRole('button', {name: 'CLI', exact: true}).click();

@@ -56,7 +56,8 @@ export function useText({query, hash}: Route): Text {
   };
   useLayoutEffect(() => {
     const timer = setTimeout(keep, KEEP_MS);
-    return () => clearTimeout(timer);
+    document.addEventListener('click', keep, true);   // Before it leads elsewhere.
+    return () => { clearTimeout(timer); document.removeEventListener('click', keep, true); };
   }, [text, origin]);
   const take = (name: string) => {
     keep();
