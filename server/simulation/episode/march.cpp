@@ -232,7 +232,10 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     if (end == Hybrid::End::kLimit) GiveUp(ids);
     const bool unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
                         std::abs(group.Miss()) > kUnlike * goal;
-    if (unlike && !IsExact()) return void(++unlike_);
+    if (unlike && !IsExact()) {
+      ++unlike_;
+      return;
+    }
     if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
     if (blurs_) break;
   }
