@@ -36,6 +36,12 @@ Scenario Rolled(std::string_view name, unsigned seed) {
   return Rolled(*std::ranges::find(Machines(), name, &Machine::name), seed);
 }
 
+bool IsFullWithin(std::int64_t steps, std::string_view name, unsigned seed) {
+  Scenario s = Rolled(name, seed);
+  s.solver.max_steps = steps;
+  return IsFull(RunForLedger(s));
+}
+
 std::string NameOf(const Machine& machine, unsigned seed) {
   return std::string(machine.name) + ' ' + std::to_string(seed);
 }
@@ -98,22 +104,16 @@ TEST(Machines, AreRightWhereStepsEndAtEvents) {
 // what an isolated collision feels: bounded there, it took 2.0 and over 3 million steps.
 TEST(Machines, AreSolvedWhereAllCreeps) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
-  for (const auto& [name, seed] : {std::pair("moved", 153U), {"press", 14U}}) {
-    Scenario s = Rolled(name, seed);
-    s.solver.max_steps = 150'000;
-    EXPECT_TRUE(IsFull(RunForLedger(s))) << name << ' ' << seed;
-  }
+  EXPECT_TRUE(IsFullWithin(150'000, "moved", 153));
+  EXPECT_TRUE(IsFullWithin(150'000, "press", 14));
 }
 
 // Two coarse passes may see other motions with the same μ, so that blocks take turns without end
 // (stack 6); and a group that was guessed by no pass yet has no μ to keep (placed 7).
 TEST(Machines, AreSolvedWherePassesDiffer) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
-  for (const auto& [name, seed] : {std::pair("stack", 6U), {"placed", 7U}}) {
-    Scenario s = Rolled(name, seed);
-    s.solver.max_steps = 600'000;
-    EXPECT_TRUE(IsFull(RunForLedger(s))) << name << ' ' << seed;
-  }
+  EXPECT_TRUE(IsFullWithin(600'000, "stack", 6));
+  EXPECT_TRUE(IsFullWithin(600'000, "placed", 7));
 }
 
 // Nearly plastic ones apart, whose restitution is steep in μ where it hardly ends.

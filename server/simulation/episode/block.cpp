@@ -99,11 +99,7 @@ Residuals::Value Block::At(const Eigen::VectorXd& x, bool slopes) {
 }
 
 Eigen::VectorXd Block::Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& step) const {
-  Eigen::VectorXd there = x;
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    there[Index(i)] *= 1 + std::clamp(step[Index(i)], kLeastChange, kMostChange);
-  }
-  return there;
+  return x.array() * (1 + step.array().max(kLeastChange).min(kMostChange));
 }
 
 void Block::OnStep(double part) {

@@ -224,22 +224,20 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
   const Ids block = timeline.Block(miss, 0, kSearch.block);
   const Ids wide = timeline.Block(miss, kSearch.at_once, kSearch.block);
   const bool ahead = how == Precision::kAhead;
+  bool unlike = false;
   for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
     const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
     blurs_ = false;
     const Hybrid::End end =
         SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
     if (end == Hybrid::End::kLimit) GiveUp(ids);
-    const bool unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
-                        std::abs(group.Miss()) > kUnlike * goal;
-    if (unlike && !IsExact()) {
-      ++unlike_;
-      return;
-    }
+    unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
+             std::abs(group.Miss()) > kUnlike * goal;
+    if (unlike && ++unlike_ <= kMostUnlike) return;
     if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
     if (blurs_) break;
   }
-  if (ahead && (blurs_ || miss_ < kSearch.blurred)) {
+  if (ahead && !unlike && (blurs_ || miss_ < kSearch.blurred)) {
     const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
     if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
   }

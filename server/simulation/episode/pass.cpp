@@ -271,10 +271,10 @@ bool Pass::Enough() const {
   return plan_.to_miss > 0 && (IsLong() || ShowsMiss());
 }
 
-// Whether what has been seen is a block's worth of groups, and overlaps nothing that comes later:
-// what is pressed may go on for ever. With fewer, what the next one would have to join is recorded
-// already: of 500 driven runs eight leave five more PARTIAL. Fixed steps may be very many: with 30
-// the first of spring-wall's NIRV cycles at 1e-7 s are told after 4 to 8 million.
+// Whether the pass has seen a block's worth of groups, and none of them runs any more: what loads
+// press may make one cycle after the other for ever. Fewer are recorded before a later group can
+// join them: with eight, five more of 500 driven runs are PARTIAL. Fixed steps may be very many:
+// with 30 groups the first NIRV cycles of spring-wall at 1e-7 s are told after 4 to 8 million.
 bool Pass::IsLong() const {
   const std::size_t most = scenario_.solver.fixed_step > 0 ? kSearch.at_once : kSearch.block;
   return running_ == 0 && sight_.groups.size() >= most;

@@ -21,8 +21,8 @@ struct SearchOptions {
   /// steps and machines 0 to 3 1.2 times; with 16 rows of 40 balls 1.4 to 1.7 times.
   /// TimelineTest.ABlock….
   std::size_t at_once = 8;
-  /// Groups of a block at most, the last to end: slopes of a pass are linear in them. After so many
-  /// a pass goes no further where none overlaps the next. Episode.WhatIsPressedForEver….
+  /// Groups of a block at most, the last to end: slopes of a pass are linear in them. A pass ends
+  /// after so many where none runs, of fixed steps after `at_once`. Episode.WhatIsPressedForEver….
   std::size_t block = 30;
   /// A guess that misses by more may end too early, or be there only because others are guesses:
   /// what began before it is solved first, and without it. Less: rows of 40 balls at ε = 0.9 take

@@ -141,27 +141,27 @@ void Cycles::DescribeStart(int contact) {
   state.peak = {};
 }
 
-// What contacts press the bodies of another one by that are pressed, but wait for their cycles to
-// begin: the equations know nothing of them yet [N].
+// The external force [N] on a contact by its neighbours that are pressed, but whose cycles are
+// still to begin at this instant: the equations know nothing of these yet.
 double Cycles::ForceOfWaiting(int contact) const {
   const Sides& here = system_.equations.sides(contact);
   const std::vector<ActiveContact>& active = system_.equations.active;
   double acceleration = 0;
   for (int c = 0; c < system_.equations.contacts(); ++c) {
-    const ContactState& state = system_.contacts[At(c)];
-    const bool waits = state.phase != Phase::kOpen && c != contact &&
-                       std::ranges::find(active, c, &ActiveContact::contact) == active.end();
-    const double deformation = waits ? system_.Deformation(c, system_.rk.y0.data()) : 0;
-    if (deformation <= 0) continue;
     const Sides& there = system_.equations.sides(c);
     const auto of_body = [&](std::ptrdiff_t body) {
       return (there.right == body ? there.right_inverse : 0) -
              (there.left == body ? there.left_inverse : 0);
     };
-    const double force =
-        SpringForce(system_.scenario.contacts[At(c)], deformation, state.yield).value;
+    const double response =
+        here.left_counts * of_body(here.left) - here.right_counts * of_body(here.right);
+    const ContactState& state = system_.contacts[At(c)];
+    if (c == contact || response == 0 || state.phase == Phase::kOpen) continue;
+    const double deformation = system_.Deformation(c, system_.rk.y0.data());
+    const bool known = std::ranges::find(active, c, &ActiveContact::contact) != active.end();
+    if (known || deformation <= 0) continue;
     acceleration +=
-        force * (here.left_counts * of_body(here.left) - here.right_counts * of_body(here.right));
+        response * SpringForce(system_.scenario.contacts[At(c)], deformation, state.yield).value;
   }
   return system_.equations.effective_mass(contact) * acceleration;
 }
