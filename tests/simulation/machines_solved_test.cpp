@@ -56,9 +56,7 @@ bool IsOpen(const Machine& machine) { return IsOneOf(machine, {"placed", "stack"
 
 // Where contacts creep, or begin next to nothing, the instants of two integrations are farther
 // apart.
-bool Creeps(const Machine& machine) {
-  return IsOneOf(machine, {"late", "zeno", "exponents", "clamped"});
-}
+bool Creeps(const Machine& machine) { return IsOneOf(machine, {"late", "zeno", "exponents"}); }
 
 class EachMachine : public ::testing::TestWithParam<Machine> {};
 

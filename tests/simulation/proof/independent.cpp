@@ -170,7 +170,8 @@ class Independent {
 
   void Start(const Cycle& c, const PlainMotion::Scale& scale) {
     if (Counts(c)) {
-      const double path = std::max(Deepest(c), c.approach_velocity * c.start_time);
+      const double deepest = HasTurned(c) ? Deepest(c) : depths_[c.contact];
+      const double path = std::max(deepest, c.approach_velocity * c.start_time);
       Miss(&Disagreement::time,
            std::abs(motion_.Deformation(c.contact) - c.start_deformation) / path, c,
            "deformation at the start");
