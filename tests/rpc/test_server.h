@@ -23,7 +23,7 @@ namespace contact {
 /// A whole server in this process, in a folder of its own, without a door.
 class TestServer {
  public:
-  explicit TestServer(GrpcServerOptions options = {}, JobOptions jobs = {.workers = 2})
+  explicit TestServer(const GrpcServerOptions& options = {}, JobOptions jobs = {.workers = 2})
       : store_(OpenSqlite(folder_.path()).value()),
         jobs_(*store_, SystemClock(), RandomIds(), std::move(jobs)),
         server_(jobs_, *store_, options, {}) {
