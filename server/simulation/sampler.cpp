@@ -19,14 +19,14 @@ void Sampler::RecordStart(const State& state) {
   if (std::ranges::any_of(state.contacts, StartsPressed)) return;
   motion_.Begin(state, true);
   log_.TakeUntil(
-      0, {}, [&](double, std::vector<double>* row) { Append(0, motion_.integrator().y0, row); });
+      0, {}, 0, [&](double, std::vector<double>* row) { Append(0, motion_.integrator().y0, row); });
 }
 
 void Sampler::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
   FindCycleSamples(motion_, step, log_.full() ? 0 : scenario_.samples_per_contact, &planned_);
   bool prepared = false;
-  log_.TakeUntil(step.At(1), planned_, [&](double time, std::vector<double>* row) {
+  log_.TakeUntil(step.At(1), planned_, motion_.steps(), [&](double time, std::vector<double>* row) {
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
     motion_.Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);

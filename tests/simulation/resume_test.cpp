@@ -137,6 +137,10 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
     all.back().second.samples_per_contact = 40;
   }
   all.back().second.most_contact_samples = 1000;  // Of the long row.
+  // So many steps that chunks are handed out before they are full.
+  all.emplace_back("slow row", testing::Chain({0.5, 0.5}, {1e8}, {0.8}, 0.2, 0.01));
+  all.back().second.sample_interval = all.back().second.end_time / 700;
+  all.back().second.solver.fixed_step = all.back().second.end_time / 200'000;
   all.emplace_back("gas", testing::Gas(40, 1e6, 1));
   all.emplace_back("dense gas", testing::Gas(12, 1e8, 1, 0.05));
   all.emplace_back("falling column", testing::Column(10, 1e7, 0.8, 0.001));

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulation/run.h"
@@ -198,6 +199,25 @@ TEST(Sampler, ManyColumnsMakeShortChunksThatFitMessages) {
     EXPECT_GT(chunk.rows(), chunk.first < 1000 - 65 ? kValuesPerChunk / 3006 - 1 : 0);
   }
   EXPECT_EQ(RowsPerChunk(kValuesPerChunk + 1), 1);
+}
+
+// A chunk waits for its 128th row, or for so many steps that a watcher would see no motion.
+TEST(Sampler, ChunksThatFillSlowlyAreHandedOutBySteps) {
+  Scenario slow = Flight::OneBall(1.0 / 200);
+  slow.solver.fixed_step = 2.5e-6;
+  struct Slow final : Observer {
+    std::int64_t steps = 0, last = 0, longest = 0;
+    std::vector<Samples> chunks;
+    void OnStep() override { ++steps; }
+    void OnSamples(const Samples& samples) override {
+      longest = std::max(longest, steps - std::exchange(last, steps));
+      chunks.push_back(samples);
+    }
+  } seen;
+  contact::Run(slow, seen, {});
+  EXPECT_EQ(ExpectNoHole(seen.chunks), 201);
+  EXPECT_GT(seen.chunks.size(), 5u);
+  EXPECT_LT(seen.longest, (1 << 19) / seen.chunks[0].columns + 2000);  // That of a row.
 }
 
 TEST(Sampler, AStopEndsAStepOfManySamplesAfterAChunk) {

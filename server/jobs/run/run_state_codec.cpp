@@ -153,7 +153,7 @@ void serialize(Archive& archive, Samples& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Sampling& s) {
-  archive(s.pending, s.regular, s.last);
+  archive(s.pending, s.regular, s.last, s.due);
 }
 
 template <class Archive>

@@ -318,7 +318,7 @@ void ClusterRun::TellUntil(double instant) {
     }
   }
   std::ranges::stable_sort(news, {}, [](const Next& n) { return std::pair(n.time, n.number); });
-  frames_.RecordUntil(instant, pieces_);
+  frames_.RecordUntil(instant, pieces_, run_.steps);
   if (frames_.cut_short() && run_.outcome.end == Outcome::End::kFinished) {
     run_.outcome.end = Outcome::End::kStopped;
     run_.outcome.message = WhyEnded(Outcome::End::kStopped, run_.state.time, {});

@@ -26,11 +26,11 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
   }
 }
 
-void Frames::RecordUntil(double instant, const Pieces& pieces) {
+void Frames::RecordUntil(double instant, const Pieces& pieces, std::int64_t steps) {
   if (scenario_.sample_interval == 0) return;
   FindSamples(until_, instant, pieces);
   until_ = instant;
-  log_.TakeUntil(instant, wanted_, [&](double time, std::vector<double>* row) {
+  log_.TakeUntil(instant, wanted_, steps, [&](double time, std::vector<double>* row) {
     Append(std::min(time, scenario_.end_time), pieces, row);
   });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 #include <utility>
@@ -21,8 +22,8 @@ class Frames {
   Frames(const World& world, Observer& observer, std::stop_token stop);
 
   /// Takes the samples up to an instant that are not taken yet [s]. `pieces`: all that go on after
-  /// the last sample.
-  void RecordUntil(double instant, const Pieces& pieces);
+  /// the last sample. `steps`: see SampleLog::TakeUntil.
+  void RecordUntil(double instant, const Pieces& pieces, std::int64_t steps);
   /// A piece ends before all samples to come.
   void Forget(const Piece& piece);
   /// Hands out what is left, at the end of the run.

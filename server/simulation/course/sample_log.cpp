@@ -1,15 +1,37 @@
 #include "simulation/course/sample_log.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "simulation/model/derived.h"
 
 namespace contact {
+namespace {
+
+// Who watches a run sees motion that is a fifth of a second old, or a 64th of the time that the run
+// has taken, whatever is more; a clock would say so better, but a run that goes on after a crash
+// hands out the same chunks. So steps count, which take 20 to 400 ns for each column of the samples
+// (tests/system/live_test.py). A chunk more repeats the names of the columns, 45 bytes each: a run
+// of a day hands out 600 more.
+constexpr std::int64_t kStepsTimesColumns = 1 << 19;
+constexpr std::int64_t kShare = 64;
+
+// The step at which a chunk is handed out that begins at the given one. Rows of many columns come
+// in short chunks already.
+std::int64_t DueAfter(std::int64_t step, int columns) {
+  if (RowsPerChunk(columns) < kSamplesPerChunk) return std::numeric_limits<std::int64_t>::max();
+  return step + std::max(kStepsTimesColumns / columns, step / kShare);
+}
+
+}  // namespace
 
 SampleLog::SampleLog(const Scenario& scenario, std::stop_token stop,
                      std::function<void(const Samples&)> hand_out)
     : scenario_(scenario), stop_(std::move(stop)), hand_out_(std::move(hand_out)) {
   samples_.columns = SampleColumns(scenario);
+  due_ = DueAfter(0, samples_.columns);
 }
 
 double SampleLog::NextRegular(double instant) const {
@@ -34,6 +56,7 @@ void SampleLog::Flush() {
   samples_.first = next_ - samples_.rows();
   hand_out_(samples_);
   samples_.values.clear();
+  due_ = DueAfter(steps_, samples_.columns);
 }
 
 void SampleLog::CutShort() {
@@ -47,7 +70,7 @@ bool SampleLog::full() const {
 }
 
 Sampling SampleLog::Save() const {
-  Sampling now{.pending = samples_, .regular = regular_, .last = last_};
+  Sampling now{.pending = samples_, .regular = regular_, .last = last_, .due = due_};
   now.pending.first = next_ - samples_.rows();
   return now;
 }
@@ -56,6 +79,7 @@ void SampleLog::Restore(Sampling from) {
   next_ = from.pending.first + from.pending.rows();
   regular_ = from.regular;
   last_ = from.last;
+  due_ = from.due;
   samples_ = std::move(from.pending);
 }
 

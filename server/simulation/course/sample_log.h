@@ -31,24 +31,14 @@ class SampleLog {
   /// Takes the samples up to an instant [s] that are not taken yet, in the order of time: those at
   /// multiples of the interval, and of the wanted ones those that are near no other. `take(t, row)`
   /// appends the values of a sample, which follow its time. The last one is at the end of the run,
-  /// though t, a multiple of the interval, may miss it by round-off.
+  /// though t, a multiple of the interval, may miss it by round-off. A chunk that `steps`, those of
+  /// the run so far, have made due is handed out though it is not full.
   template <class Take>
-  void TakeUntil(double instant, std::span<const CycleSample> wanted, Take take) {
-    while (true) {
-      const double regular = NextRegular(instant);
-      const CycleSample next = wanted.empty() ? CycleSample{.time = kNever} : wanted.front();
-      if (regular == kNever && next.time == kNever) return;
-      const bool in_cycle = next.time < regular - next.near;
-      if (in_cycle) wanted = wanted.subspan(1);
-      if (in_cycle && (next.time - last_ <= next.near || full())) continue;
-      if (samples_.rows() == 0 && stop_.stop_requested()) CutShort();
-      if (cut_short_) return;
-      if (!in_cycle) ++regular_;
-      const double time = in_cycle ? next.time : regular;
-      Begin(std::min(time, scenario_.end_time));
-      take(time, &samples_.values);
-      End();
-    }
+  void TakeUntil(double instant, std::span<const CycleSample> wanted, std::int64_t steps,
+                 Take take) {
+    steps_ = steps;
+    TakeAll(instant, wanted, take);
+    if (steps >= due_) Flush();
   }
   /// Hands out what is left, at the end of the run.
   void Flush();
@@ -65,6 +55,24 @@ class SampleLog {
   void Restore(Sampling from);
 
  private:
+  template <class Take>
+  void TakeAll(double instant, std::span<const CycleSample> wanted, Take take) {
+    while (true) {
+      const double regular = NextRegular(instant);
+      const CycleSample next = wanted.empty() ? CycleSample{.time = kNever} : wanted.front();
+      if (regular == kNever && next.time == kNever) return;
+      const bool in_cycle = next.time < regular - next.near;
+      if (in_cycle) wanted = wanted.subspan(1);
+      if (in_cycle && (next.time - last_ <= next.near || full())) continue;
+      if (samples_.rows() == 0 && stop_.stop_requested()) CutShort();
+      if (cut_short_) return;
+      if (!in_cycle) ++regular_;
+      const double time = in_cycle ? next.time : regular;
+      Begin(std::min(time, scenario_.end_time));
+      take(time, &samples_.values);
+      End();
+    }
+  }
   /// Time of the next sample at the interval [s]; kNever if it comes after `instant`.
   double NextRegular(double instant) const;
   void Begin(double time);
@@ -77,6 +85,8 @@ class SampleLog {
   std::int64_t next_ = 0;     // Index of the next sample in the trajectory.
   std::int64_t regular_ = 0;  // Samples at multiples of the interval so far.
   double last_ = 0;           // Time of the last sample [s].
+  std::int64_t steps_ = 0;    // Of the run so far.
+  std::int64_t due_;          // The number of steps at which the chunk is handed out, full or not.
   Samples samples_;           // The chunk that is being filled.
 };
 

@@ -17,6 +17,7 @@ struct Sampling {
   Samples pending;           ///< Taken and not reported yet; `first` is theirs.
   std::int64_t regular = 0;  ///< Samples at multiples of the interval so far.
   double last = 0;           ///< Time of the last sample [s].
+  std::int64_t due = 0;      ///< Steps of the run at which `pending` is handed out, full or not.
 };
 
 /// When the rest that follows a group ends.
