@@ -223,7 +223,8 @@ Statement RemarkJob(const JobRemark& remark) {
   parameters.Bytes(remark.name).Bytes(remark.expected_uid);
   if (remark.labels) {
     std::string bytes = BytesOf(*remark.labels);
-    parameters.Integer(Checksum(bytes, 0, remark.name)).Bytes(std::move(bytes));
+    parameters.Integer(Checksum(bytes, 0, remark.name));
+    parameters.Bytes(std::move(bytes));
   } else {
     parameters.Null().Null();
   }
@@ -310,10 +311,10 @@ absl::StatusOr<std::vector<StoredJob>> JobsOf(const Rows& rows) {
 std::vector<StoredJob> ClaimedOf(const Rows& rows) {
   std::vector<StoredJob> jobs;
   for (int row = 0; row < rows.size(); ++row) {
-    const StoredJob header = HeaderOf(rows, row);
-    StoredJob whole = header;
+    jobs.push_back(HeaderOf(rows, row));
+    StoredJob whole = jobs.back();
     MergeRunParts(rows, row, 0, &whole);
-    jobs.push_back(whole.intact ? std::move(whole) : header);
+    if (whole.intact) jobs.back() = std::move(whole);
   }
   return jobs;
 }
