@@ -5,7 +5,7 @@ import {after, afterEach, before, beforeEach, test} from 'node:test';
 
 import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
 
-// Twenty seconds or so. A chunk of 256 samples comes about every half second.
+// Twenty seconds or so, of which samples come some times a second.
 const LONG = {...swinging(2, {method: 'RK4', stepS: 1e-7}), output: {sampleIntervalS: 5e-5}};
 const BALL = {title: 'A ball alone', bodies: [{name: 'a', massKg: 1}], endTimeS: 1e-3, output: {ledgerOnly: true}};
 let server;
@@ -105,6 +105,18 @@ test('a note is written on the page of a run, stays while it is not stored, and 
   await page.getByRole('textbox', {name: 'Note'}).fill('');
   await page.getByRole('button', {name: 'Drop changes'}).click();
   await page.getByText('But ε is off.').waitFor();
+});
+
+test('a note that is stored is seen on other pages of the run that are open', async () => {
+  const id = await server.submit({...BALL, title: 'Noted twice'});
+  await open(`/runs/${id}`);
+  const other = await page.context().newPage();
+  await other.goto(`${server.origin}/runs/${id}`);
+  await other.getByRole('button', {name: 'Add labels or a note'}).waitFor();
+  await page.getByRole('button', {name: 'Add labels or a note'}).click();
+  await page.getByRole('textbox', {name: 'Note'}).fill('Seen elsewhere.');
+  await page.getByRole('button', {name: 'Store'}).click();
+  await other.getByText('Seen elsewhere.').waitFor();
 });
 
 test('runs are chosen by when they were created, for everybody who has the address', async () => {

@@ -26,6 +26,14 @@ export function Remarks({job}: {job: Job}) {
   const [draft, setDraft] = useState(() => draftOf(name));
   const [error, setError] = useState('');
   useEffect(() => setSaid(job), [job.name, job.note, JSON.stringify(job.labels)]);
+  useEffect(() => {   // Other pages of this browser tell at once; of others this one hears when it is looked at.
+    const others = new BroadcastChannel(draftKey(name));
+    const renew = () => { server.getJob({name}).then(setSaid, () => undefined); };
+    const look = () => { if (document.visibilityState === 'visible') renew(); };
+    others.onmessage = renew;
+    document.addEventListener('visibilitychange', look);
+    return () => { others.close(); document.removeEventListener('visibilitychange', look); };
+  }, [name]);
   useEffect(() => {
     if (draft) sessionStorage.setItem(draftKey(name), JSON.stringify(draft));
     else sessionStorage.removeItem(draftKey(name));
@@ -45,7 +53,14 @@ export function Remarks({job}: {job: Job}) {
     const none = [...wrong, ...removed.map((key) => `${key}-`)];
     if (none.length > 0) { setError(`${none.join(', ')}: write labels as key=value`); return; }
     server.updateJob({job: {name, labels: set, note: draft!.note}, updateMask: {paths: ['labels', 'note']}, expectedUid: job.uid}).then(
-      (newest) => { setSaid(newest); setDraft(undefined); setError(''); }, fail);
+      (newest) => {
+        setSaid(newest);
+        setDraft(undefined);
+        setError('');
+        const others = new BroadcastChannel(draftKey(name));
+        others.postMessage('stored');
+        others.close();
+      }, fail);
   };
   if (!draft) {
     return (
