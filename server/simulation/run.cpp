@@ -55,7 +55,7 @@ class Runner {
       TellGroups();
     }
     sampler_.Flush();
-    if (sampler_.full()) observer_.OnWarning(kSamplesAreFull);
+    if (sampler_.misses_samples()) observer_.OnWarning(kSamplesAreFull);
     Summarize();
     return run_.outcome;
   }

@@ -24,7 +24,8 @@ void Sampler::RecordStart(const State& state) {
 
 void Sampler::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
-  FindCycleSamples(motion_, step, log_.full() ? 0 : scenario_.samples_per_contact, &planned_);
+  planned_.clear();
+  if (!log_.full()) FindCycleSamples(scenario_, motion_, step, &planned_);
   bool prepared = false;
   log_.TakeUntil(step.At(1), planned_, motion_.steps(), [&](double time, std::vector<double>* row) {
     if (!prepared) motion_.PrepareInterpolation();

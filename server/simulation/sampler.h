@@ -30,8 +30,8 @@ class Sampler final : public Recording {
 
   /// True if samples are missing because the run was asked to stop.
   bool cut_short() const { return log_.cut_short(); }
-  /// See SampleLog::full.
-  bool full() const { return log_.full(); }
+  /// See SampleLog.
+  bool misses_samples() const { return log_.misses_samples(); }
 
   /// Takes the first sample, of the state at time 0. Begins a recording of `motion`.
   void RecordStart(const State& state);

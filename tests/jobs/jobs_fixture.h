@@ -39,6 +39,7 @@ inline v1::Scenario BouncingBall(double end_time_s = 1e6) {
   scenario.add_loads()->mutable_gravity();
   scenario.mutable_solver()->set_max_steps(1'000'000'000'000);
   scenario.mutable_output()->set_sample_interval_s(0.25);
+  scenario.mutable_output()->set_samples_per_contact(0);
   scenario.set_end_time_s(end_time_s);
   return scenario;
 }

@@ -129,7 +129,7 @@ TEST(ToRemark, TakesNotesUpToTheirLimit) {
   for (int i = 0; i < 1000; ++i) longest += i % 50 == 49 ? "\n" : "ε";
   EXPECT_TRUE(ToRemark(NoteOf(longest)).ok());
   for (const std::string& note : {longest + "x", std::string("\033[2J"), std::string("a\rb"),
-                                  std::string("a\0b", 3), std::string("\u202e")}) {
+                                  std::string("a\0b", 3), std::string("\xe2\x80\xae")}) {
     EXPECT_THAT(Fields(ToRemark(NoteOf(note)).error().violations), ElementsAre("note"));
   }
 }

@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-from contact.v1 import event_pb2, job_pb2, scenario_pb2
+from contact.v1 import event_pb2, field_rules_pb2, job_pb2, scenario_pb2
 from contactsim.figures import FigureError
 from contactsim.figures.axes import AxisUnit, chosen_unit, named_unit, readable_unit, unit_of
 from contactsim.figures.figure import Curve, Mark
@@ -131,6 +131,11 @@ class LabelsTest(unittest.TestCase):
         listed = re.search(r"for \(const char\* quantity :\s+\{([^}]+)\}\)", server).group(1)
         channels |= {name: "J" for name in re.findall(r'"(\w+)"', listed)}
         self.assertEqual(WORDS["channels"], channels)
+
+    def test_contacts_have_as_many_samples_of_their_own_as_the_contract_says(self):
+        field = scenario_pb2.Output.DESCRIPTOR.fields_by_name["samples_per_contact"]
+        rule = field.GetOptions().Extensions[field_rules_pb2.rule]
+        self.assertEqual(WORDS["coarse"]["own"], rule.default_number)
 
     def test_metrics_name_the_quantity_its_owner_and_its_unit_as_in_the_dashboard(self):
         for metric, label in PRINTED["metrics"]:

@@ -302,6 +302,19 @@ TEST(CycleSamples, AreEvenlySpreadFromTheStartOfEachCycle) {
   EXPECT_LE(cycle.end_time - r.Sample(rows.back(), 0), spacing);
 }
 
+TEST(CycleSamples, ThatNobodyAskedForAreOnlyWhereThoseOfTheIntervalAreRarer) {
+  Scenario s = testing::Collision(0.3, 2, 5e7, 1.5, 0.7);
+  s.samples_per_contact = 20;
+  s.wants_all_contact_samples = false;
+  s.sample_interval = s.end_time / 1e5;
+  EXPECT_EQ(RunAndRecord(s).rows(), 100'001);
+  s.sample_interval = s.end_time;
+  const Record r = RunAndRecord(s);
+  const std::vector<int> rows = RowsIn(r, r.cycles.at(0).start_time, r.cycles.at(0).end_time);
+  EXPECT_GE(static_cast<int>(rows.size()), 18);
+  EXPECT_LE(static_cast<int>(rows.size()), 40);
+}
+
 TEST(CycleSamples, EveryBounceHasThemHoweverLongTheFlights) {
   const Record r = Sampled(BouncingBall());
   ASSERT_GE(r.cycles.size(), 2u);

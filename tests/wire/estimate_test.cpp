@@ -34,6 +34,8 @@ TEST(Estimate, SamplesAreThoseThatAreRecorded) {
   v1::Scenario scenario = TwoBalls();
   EXPECT_EQ(EstimateOf(scenario).samples(), 1001);
   scenario.mutable_output()->set_sample_interval_s(3e-4);
+  EXPECT_EQ(EstimateOf(scenario).samples(), 14 + 14);  // The contact would have 20 of its own.
+  scenario.mutable_output()->set_samples_per_contact(0);
   EXPECT_EQ(EstimateOf(scenario).samples(), 14);
   scenario.mutable_output()->set_ledger_only(true);
   EXPECT_EQ(EstimateOf(scenario).samples(), 0);

@@ -175,6 +175,7 @@ TEST(ScenarioAdvice, TellsOfAStepTooLongForASwingUnderALoad) {
 TEST(ScenarioAdvice, TellsOfSamplesTooFewForAContact) {
   v1::Scenario scenario = TwoBalls();
   scenario.mutable_output()->set_sample_interval_s(1e-4);
+  scenario.mutable_output()->set_samples_per_contact(0);
   EXPECT_THAT(AdviceOn(scenario),
               ElementsAre("output.sample_interval_s: gives a contact of B1-B2 16.1 samples; it "
                           "lasts about 0.0016 s at 0.2 m/s — 8e-06 gives it 200"));
@@ -185,12 +186,14 @@ TEST(ScenarioAdvice, TellsOfSamplesTooFewForAContact) {
 TEST(ScenarioAdvice, AsksNobodyToRecordMillionsOfSamples) {
   v1::Scenario scenario = TwoBalls();
   scenario.set_end_time_s(1000);
+  scenario.mutable_output()->set_samples_per_contact(0);
   EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("or output.ledger_only")));
 }
 
 TEST(ScenarioAdvice, SamplesOfItsOwnAreEnoughForAContact) {
   v1::Scenario scenario = TwoBalls();
   scenario.set_end_time_s(1000);
+  EXPECT_THAT(AdviceOn(scenario), IsEmpty());
   scenario.mutable_output()->set_samples_per_contact(19);
   EXPECT_THAT(AdviceOn(scenario), ElementsAre(HasSubstr("set output.samples_per_contact")));
   scenario.mutable_output()->set_samples_per_contact(20);
@@ -335,6 +338,7 @@ TEST(ScenarioAdvice, OfASweepIsThatOfItsBaseButForWhatAxesSet) {
   sweep.mutable_base()->mutable_solver()->set_method(v1::Solver::RK4);
   sweep.mutable_base()->mutable_solver()->set_step_s(1e-5);
   sweep.mutable_base()->mutable_output()->set_sample_interval_s(1e-3);
+  sweep.mutable_base()->mutable_output()->set_samples_per_contact(0);
   sweep.add_metrics("iterations");
   sweep.add_axes()->set_field("bodies[0].velocity_m_per_s");
   sweep.mutable_axes(0)->add_values(0.2);

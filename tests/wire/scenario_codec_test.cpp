@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "simulation/model/derived.h"
 #include "wire/scenario_builder.h"
 
 namespace contact {
@@ -330,10 +331,24 @@ TEST(DecodeScenario, SamplesCountAgainstTheLimit) {
                           "most 4 — set output.ledger_only to record none"));
 }
 
+TEST(DecodeScenario, ByDefaultSamplesInContactsAreAsManyAsThoseOfTheInterval) {
+  v1::Scenario message = TwoBalls();
+  const Scenario s = DecodeScenario(message, {}).scenario;
+  EXPECT_EQ(s.samples_per_contact, 20);
+  EXPECT_EQ(s.most_contact_samples, 1001);
+  EXPECT_FALSE(s.wants_all_contact_samples);
+  EXPECT_EQ(DecodeScenario(message, {.max_samples = 1011}).scenario.most_contact_samples, 10);
+  for (int i = 2; i < 1000; ++i) *message.add_bodies() = message.bodies(1);
+  const double columns = SampleColumns(DecodeScenario(message, {}).scenario);
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.most_contact_samples,
+            static_cast<std::int64_t>(1e6 / columns));
+}
+
 TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalLeaveOfTheLimit) {
   v1::Scenario message = TwoBalls();
   message.set_end_time_s(1);
   message.mutable_output()->set_sample_interval_s(0.25);
+  message.mutable_output()->set_samples_per_contact(20);
   const auto most = [&](std::int64_t limit) {
     return DecodeScenario(message, {.max_samples = limit}).scenario.most_contact_samples;
   };

@@ -70,7 +70,7 @@ Outcome ClusterRun::Run() {
     TellProgress();
   }
   frames_.Flush();
-  if (frames_.full()) observer_.OnWarning(kSamplesAreFull);
+  if (frames_.misses_samples()) observer_.OnWarning(kSamplesAreFull);
   Summarize();
   return run_.outcome;
 }

@@ -30,8 +30,8 @@ class Frames {
   void Flush() { log_.Flush(); }
   /// True if samples are missing because the run was asked to stop.
   bool cut_short() const { return log_.cut_short(); }
-  /// See SampleLog::full.
-  bool full() const { return log_.full(); }
+  /// See SampleLog.
+  bool misses_samples() const { return log_.misses_samples(); }
 
   Sampling Save() const { return log_.Save(); }
   /// Dissipated in the pieces that are forgotten [J].

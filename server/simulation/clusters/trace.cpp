@@ -35,11 +35,7 @@ std::span<const Trace::Pressed> Trace::PressedIn(std::size_t step) const {
 
 TraceWriter::TraceWriter(const Scenario& whole, Motion& motion, const std::vector<int>& contacts,
                          Trace* trace)
-    : motion_(motion),
-      contacts_(contacts),
-      interval_(whole.sample_interval),
-      per_cycle_(whole.samples_per_contact),
-      trace_(*trace) {}
+    : motion_(motion), contacts_(contacts), whole_(whole), trace_(*trace) {}
 
 void TraceWriter::Begin(const std::vector<Place>& places) {
   base_.clear();
@@ -49,16 +45,17 @@ void TraceWriter::Begin(const std::vector<Place>& places) {
 
 void TraceWriter::FindParts(const StepTime& step) {
   parts_.clear();
-  if (interval_ == 0) return;
-  FindCycleSamples(motion_, step, per_cycle_, &found_);
+  const double interval = whole_.sample_interval;
+  if (interval == 0) return;
+  FindCycleSamples(whole_, motion_, step, &found_);
   trace_.samples.insert(trace_.samples.end(), found_.begin(), found_.end());
   const auto add = [&](double instant) {
     const double theta = step.Theta(instant);
     if (instant > step.start && theta > 0 && theta < 1) parts_.push_back(theta);
   };
   for (const CycleSample& sample : found_) add(sample.time);
-  for (double i = std::ceil(step.start / interval_); i * interval_ < step.At(1); ++i) {
-    add(i * interval_);
+  for (double i = std::ceil(step.start / interval); i * interval < step.At(1); ++i) {
+    add(i * interval);
   }
   std::ranges::sort(parts_);
 }
@@ -105,7 +102,7 @@ void TraceWriter::Write(const StepTime& step, const Eigen::ArrayXd& y0,
                            .from_acceleration = slope0[n + i],
                            .to_acceleration = slope1[n + i]});
   }
-  if (interval_ == 0) return;
+  if (whole_.sample_interval == 0) return;
   trace_.dissipated.push_back(motion_.ExchangedUntil(y1).dissipated - lost_before_);
   for (const ActiveContact& active : motion_.equations().active) {
     const int contact = contacts_[static_cast<std::size_t>(active.contact)];
@@ -122,7 +119,7 @@ void TraceWriter::Hold() {
 void TraceWriter::TakeBack() {
   trace_.steps.resize(held_);
   trace_.ends.resize(held_ * trace_.bodies);
-  if (interval_ == 0) return;
+  if (whole_.sample_interval == 0) return;
   trace_.samples.resize(held_samples_);
   trace_.dissipated.resize(held_);
   trace_.presses.resize(held_);

@@ -65,8 +65,7 @@ class TraceWriter final : public Recording {
 
   Motion& motion_;
   const std::vector<int>& contacts_;
-  const double interval_;  // Of samples [s]; 0: there are none.
-  const int per_cycle_;
+  const Scenario& whole_;
   Trace& trace_;
   std::vector<double> base_;  // u at the begin of the stretch [m].
   double lost_before_ = 0;    // Of cycles that run where the trace begins, until then [J].

@@ -21,16 +21,17 @@ double Spacing(const ContactState& cycle, const StepTime& step, int samples_per_
 
 }  // namespace
 
-void FindCycleSamples(const Motion& motion, const StepTime& step, int samples_per_contact,
+void FindCycleSamples(const Scenario& scenario, const Motion& motion, const StepTime& step,
                       std::vector<CycleSample>* found) {
   found->clear();
-  if (samples_per_contact == 0) return;
+  if (scenario.samples_per_contact == 0) return;
   const double end = step.At(1);
   double least = kNever;
   for (const ActiveContact& active : motion.equations().active) {
     const ContactState& contact = motion.contacts()[static_cast<std::size_t>(active.contact)];
     if (contact.phase == Phase::kResting) continue;
-    const double spacing = Spacing(contact, step, samples_per_contact);
+    const double spacing = Spacing(contact, step, scenario.samples_per_contact);
+    if (!scenario.wants_all_contact_samples && spacing >= scenario.sample_interval) continue;
     const double start = contact.cycle.start_time;
     least = std::min(least, spacing);
     for (double i = std::floor((step.start - start) / spacing); start + i * spacing <= end; ++i) {

@@ -48,6 +48,8 @@ class SampleLog {
   bool cut_short() const { return cut_short_; }
   /// True if cycles have had all samples that Scenario::most_contact_samples allows, if any.
   bool full() const;
+  /// True if samples are missing because of that which somebody asked for.
+  bool misses_samples() const { return full() && scenario_.wants_all_contact_samples; }
 
   /// Samples that were not handed out yet, and what else it takes to go on after them.
   Sampling Save() const;

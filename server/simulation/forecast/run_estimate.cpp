@@ -149,7 +149,11 @@ double Columns(const Scenario& scenario) { return SampleColumns(scenario); }
 double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   if (scenario.sample_interval == 0) return 0;
   double in_cycles = 0;
-  for (const Cycles& c : cycles) in_cycles += c.count * scenario.samples_per_contact;
+  for (const Cycles& c : cycles) {
+    const double spacing = c.time / c.count / scenario.samples_per_contact;
+    if (!scenario.wants_all_contact_samples && !(spacing < scenario.sample_interval)) continue;
+    in_cycles += c.count * scenario.samples_per_contact;
+  }
   return 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12)) +
          std::min(std::round(in_cycles), static_cast<double>(scenario.most_contact_samples));
 }

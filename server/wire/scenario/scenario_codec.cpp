@@ -186,17 +186,23 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
   return output.ledger_only() ? 0 : interval;
 }
 
-// What is recorded of the trajectory. Samples in contacts are as many as those at equal intervals
-// leave of the limit.
+// What is recorded of the trajectory, of bodies and contacts that are decoded. Samples in contacts
+// are as many as those at equal intervals leave of the limit; where nobody asked for them they
+// make the trajectory twice as long at most, and a row of many columns is not repeated for each.
 void DecodeOutput(const v1::Scenario& message, const ScenarioLimits& limits, const Rules& rules,
                   Scenario* scenario) {
   constexpr double kMost = 1e15;  // Exact as a number.
+  constexpr double kMostByDefault = 1e6;
   scenario->sample_interval = DecodeSampleInterval(message, limits, rules);
   scenario->samples_per_contact =
       static_cast<int>(rules.Read(message.output(), v1::Output::kSamplesPerContactFieldNumber));
-  const double left = static_cast<double>(limits.max_samples) - 1 -
-                      std::floor(message.end_time_s() / scenario->sample_interval);
-  scenario->most_contact_samples = left > 0 ? static_cast<std::int64_t>(std::min(left, kMost)) : 0;
+  scenario->wants_all_contact_samples = message.output().has_samples_per_contact();
+  const double regular = 1 + std::floor(message.end_time_s() / scenario->sample_interval);
+  double most = std::min(static_cast<double>(limits.max_samples) - regular, kMost);
+  if (!scenario->wants_all_contact_samples) {
+    most = std::min({most, regular, std::floor(kMostByDefault / SampleColumns(*scenario))});
+  }
+  scenario->most_contact_samples = most > 0 ? static_cast<std::int64_t>(most) : 0;
 }
 
 // Checks how much there is before anything is allocated for it.

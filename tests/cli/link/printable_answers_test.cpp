@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 // Sets a window's title, paints, turns the direction, and is a C1 control character.
-constexpr char kHostile[] = "\x1b]0;pwn\x07\x1b[31m\u202e\u009b";
+constexpr char kHostile[] = "\x1b]0;pwn\x07\x1b[31m\xe2\x80\xae\xc2\x9b";
 constexpr char kHarmless[] = "?]0;pwn??[31m??";
 
 v1::Job HostileJob() {

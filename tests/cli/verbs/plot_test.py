@@ -97,7 +97,8 @@ class PlotTest(CliTest):
         self.assertAlmostEqual(np.trapz(loop[:, 1], loop[:, 0]), lost, delta=2e-3 * lost)
 
     def test_cycles_between_samples_are_told_with_what_shows_them(self):
-        name = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}")
+        name = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}", "--set",
+                           "output.samples_per_contact=0")
         path = self.folder / "coarse.svg"
         said = self.run_it("plot", name, "force", "-f", path)[1]
         command = re.search("contactctl (run --like .*)", said)[1].split()

@@ -3,11 +3,13 @@
 
 import look from '../../../python/contactsim/figures/words.json';
 import {Cycle_End, Cycle_Status, type Cycle} from '../api/generated/contact/v1/job_pb';
+import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
 import type {RunPart, RunView} from './curves';
 import type {ContactModel} from './mechanics';
 import {joined, lowerBound, type Band, type Curve, type Panel, type Range} from './panel';
 
 const FEW = look.coarse.few;
+const OWN = look.coarse.own;
 
 const timesOf = ({series}: RunPart): ArrayLike<number> => series.get('time')?.values ?? [];
 
@@ -18,10 +20,36 @@ function upperBound(xs: ArrayLike<number>, x: number): number {
   return place;
 }
 
-/** Samples that are recorded in a second: in the mean, where the series has a part of them only. */
-function rateOf({series}: RunPart, time: ArrayLike<number>): number {
+/** Time between samples, beside those that contacts have of their own. */
+const intervalOf = ({output, endTimeS}: Scenario) => output?.sampleIntervalS ?? endTimeS / 1000;
+
+/** Samples in a second, beside those of contacts: in the mean, where the series has a part of them only. */
+function rateOf({series, mechanics}: RunView, time: ArrayLike<number>): number {
   const samples = series.recorded ?? time.length;
-  return samples > 1 ? (samples - 1) / (time[time.length - 1]! - time[0]!) : 0;
+  const rate = samples > 1 ? (samples - 1) / (time[time.length - 1]! - time[0]!) : 0;
+  return Math.min(rate, 1 / intervalOf(mechanics.scenario));
+}
+
+const ownEnds = new WeakMap<Cycle[], {of: number; until: number}>();
+
+/**
+ * Until when each contact has samples of its own for certain, if nobody asked for them: until they are as many as those
+ * at equal intervals, or a million numbers. A cycle that lasts longer than expected has twice as many.
+ */
+function ownUntil({mechanics: {scenario, bodies, contacts}, cycles}: RunView): number {
+  const known = ownEnds.get(cycles);
+  if (known?.of === cycles.length) return known.until;
+  const columns = 6 + 3 * bodies.length + 4 * contacts.length + 2 * scenario.supports.length;
+  const most = Math.min(1 + scenario.endTimeS / intervalOf(scenario), 1e6 / columns);
+  const starts = cycles.map(({startTimeS}) => startTimeS).sort((a, b) => a - b);
+  const until = starts[Math.floor(most / (2 * OWN))] ?? Infinity;
+  ownEnds.set(cycles, {of: cycles.length, until});
+  return until;
+}
+
+/** Samples of its own that a contact has at some time. */
+function ownAt(view: RunView, time: number): number {
+  return view.mechanics.scenario.output?.samplesPerContact ?? (time < ownUntil(view) ? OWN : 0);
 }
 
 /**
@@ -32,7 +60,7 @@ function recordedIn(view: RunView, from: number, to: number, last: typeof lowerB
   const time = timesOf(view);
   const counted = !view.series.thinned && from >= time[0]! && to <= time[time.length - 1]!;
   if (counted) return last(time, to) - lowerBound(time, from);
-  return Math.max(view.mechanics.scenario.output?.samplesPerContact ?? 0, (to - from) * rateOf(view, time));
+  return Math.max(ownAt(view, from), (to - from) * rateOf(view, time));
 }
 
 /** Whether a cycle is seen. */
