@@ -37,7 +37,8 @@ class AdviceTest(FileTest):
             self.assertIn(warning, self.run_it(command, path, code=None)[1])
 
     def test_override_is_told_as_such(self):
-        said = self.run_it("validate", CHAIN, "--set", "output.sample_interval_s=1e-3")[1]
+        said = self.run_it("validate", CHAIN, "--set", "output.sample_interval_s=1e-3", "--set",
+                           "output.samples_per_contact=0")[1]
         self.assertTrue(said.startswith("--set: warning: output.sample_interval_s: gives"), said)
 
     def test_job_keeps_the_advice_that_concerns_its_result(self):
