@@ -71,6 +71,19 @@ test('bodies come and go by buttons', async () => {
   await hold(async () => await editor.inputValue() === chain);
 });
 
+test('a table is written point by point', async () => {
+  await form.getByRole('button', {name: 'Add a load'}).click();
+  await form.getByLabel('kind').selectOption('table');
+  const says = (points) => hold(async () => (await editor.inputValue()).includes(`table: {points: [${points}]}`));
+  for (let i = 0; i < 3; ++i) await form.getByRole('button', {name: 'Add a point'}).click();
+  await says('{time_s: 0, force_n: 0}, {time_s: 1, force_n: 0}, {time_s: 2, force_n: 0}');
+  await fill('force_n of point 2', '5');
+  await fill('time_s of point 3', '0.5');
+  await form.getByText('points[2].time_s').first().waitFor();
+  await form.getByRole('button', {name: 'Remove point 3'}).click();
+  await says('{time_s: 0, force_n: 0}, {time_s: 1, force_n: 5}');
+});
+
 test('a click on the drawing shows what is there', async () => {
   const canvas = page.getByLabel('The scenario as it begins').locator('canvas');
   await page.getByText('The server accepts it.').waitFor();

@@ -13,14 +13,14 @@ export const pathText = (path: Path): string =>
   path.reduce<string>((text, part) => (typeof part === 'number' ? `${text}[${part}]` : text ? `${text}.${part}` : part), '');
 
 /** A value as people type it. */
-function typedOf(value: unknown): string {
+export function typedOf(value: unknown): string {
   if (value === undefined || value === null) return '';
   if (typeof value === 'number' && Math.abs(value) >= 1e5) return value.toExponential().replace('e+', 'e');
   return Array.isArray(value) ? value.map(String).join(', ') : typeof value === 'object' ? JSON.stringify(value) : String(value);
 }
 
 /** What is typed as YAML; undefined for nothing. */
-function yamlOf({kind}: FormField, typed: string): string | undefined {
+export function yamlOf({kind}: FormField, typed: string): string | undefined {
   if (typed.trim() === '') return undefined;
   if (kind === 'number' || kind === 'integer') return numberOf(typed);
   if (kind === 'numbers' || kind === 'texts') {

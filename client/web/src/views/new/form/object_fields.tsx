@@ -5,6 +5,7 @@ import {choicesOf, fieldsOf, type FormField} from '../../../model/form/fields';
 import {LISTS} from '../../../model/form/objects';
 import type {Problem} from '../../../model/scenario_text';
 import {Field, pathText} from './field';
+import {Points} from './points';
 
 /** What fields need to change the page. */
 export interface Editing {
@@ -56,7 +57,7 @@ export function ObjectFields({type, value, path, editing}: Props) {
         if (path.length === 0 && SHOWN_BY_THEMSELVES.includes(field.name)) return null;
         if (choices.includes(field.name) && field.name !== kind) return null;
         if (field.kind === 'object') return <Inner key={field.name} field={field} value={given[field.name]} path={own} editing={editing} removable={field.name !== kind} />;
-        if (field.kind === 'objects') return <p key={field.name} class="row soft">{field.name}: {Array.isArray(given[field.name]) ? (given[field.name] as unknown[]).length : 0} entries, which stand in the text</p>;
+        if (field.kind === 'objects') return <Points key={field.name} field={field} value={given[field.name]} path={own} editing={editing} />;
         return <Field key={field.name} field={field} value={given[field.name]} path={own} editing={editing} />;
       })}
     </>
