@@ -33,8 +33,8 @@ function rateOf({series, mechanics}: RunView, time: ArrayLike<number>): number {
 const ownEnds = new WeakMap<Cycle[], {of: number; until: number}>();
 
 /**
- * Until when each contact has samples of its own for certain, if nobody asked for them: until they are as many as those
- * at equal intervals, or a million numbers. A cycle that lasts longer than expected has twice as many.
+ * Until when each contact has samples of its own for certain, if nobody asked for them: until they have doubled the
+ * samples, or make a million numbers (Output.samples_per_contact). A cycle that lasts longer than expected has twice as many.
  */
 function ownUntil({mechanics: {scenario, bodies, contacts}, cycles}: RunView): number {
   const known = ownEnds.get(cycles);

@@ -1,6 +1,6 @@
 // Labels and note of a run, and their changing. What is typed is kept until it is stored or dropped.
 
-import {useEffect, useState} from 'preact/hooks';
+import {useEffect, useRef, useState} from 'preact/hooks';
 
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
@@ -26,13 +26,14 @@ export function Remarks({job}: {job: Job}) {
   const [draft, setDraft] = useState(() => draftOf(name));
   const [error, setError] = useState('');
   useEffect(() => setSaid(job), [job.name, job.note, JSON.stringify(job.labels)]);
+  const others = useRef<BroadcastChannel>();
   useEffect(() => {   // Other pages of this browser tell at once; of others this one hears when it is looked at.
-    const others = new BroadcastChannel(draftKey(name));
+    const channel = others.current = new BroadcastChannel(draftKey(name));
     const renew = () => { server.getJob({name}).then(setSaid, () => undefined); };
     const look = () => { if (document.visibilityState === 'visible') renew(); };
-    others.onmessage = renew;
+    channel.onmessage = renew;
     document.addEventListener('visibilitychange', look);
-    return () => { others.close(); document.removeEventListener('visibilitychange', look); };
+    return () => { channel.close(); document.removeEventListener('visibilitychange', look); };
   }, [name]);
   useEffect(() => {
     if (draft) sessionStorage.setItem(draftKey(name), JSON.stringify(draft));
@@ -57,9 +58,7 @@ export function Remarks({job}: {job: Job}) {
         setSaid(newest);
         setDraft(undefined);
         setError('');
-        const others = new BroadcastChannel(draftKey(name));
-        others.postMessage('stored');
-        others.close();
+        others.current?.postMessage('stored');
       }, fail);
   };
   if (!draft) {

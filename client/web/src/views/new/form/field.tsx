@@ -1,5 +1,6 @@
 // One field of the form: what it is, what is wrong with it, and that it may be an axis.
 
+import type {JSX} from 'preact';
 import {useEffect, useState} from 'preact/hooks';
 
 import {numberOf, textOf, type Path} from '../../../model/form/edit';
@@ -13,14 +14,14 @@ export const pathText = (path: Path): string =>
   path.reduce<string>((text, part) => (typeof part === 'number' ? `${text}[${part}]` : text ? `${text}.${part}` : part), '');
 
 /** A value as people type it. */
-export function typedOf(value: unknown): string {
+function typedOf(value: unknown): string {
   if (value === undefined || value === null) return '';
   if (typeof value === 'number' && Math.abs(value) >= 1e5) return value.toExponential().replace('e+', 'e');
   return Array.isArray(value) ? value.map(String).join(', ') : typeof value === 'object' ? JSON.stringify(value) : String(value);
 }
 
 /** What is typed as YAML; undefined for nothing. */
-export function yamlOf({kind}: FormField, typed: string): string | undefined {
+function yamlOf({kind}: FormField, typed: string): string | undefined {
   if (typed.trim() === '') return undefined;
   if (kind === 'number' || kind === 'integer') return numberOf(typed);
   if (kind === 'numbers' || kind === 'texts') {
@@ -28,6 +29,16 @@ export function yamlOf({kind}: FormField, typed: string): string | undefined {
     return `[${typed.split(',').filter((one) => one.trim() !== '').map(entry).join(', ')}]`;
   }
   return kind === 'truth' || kind === 'word' ? typed : textOf(typed);
+}
+
+/** An input of a field. What is typed stays while the page is checked. */
+export function Typed({field, value, commit, ...rest}: {field: FormField; value: unknown; commit: (yaml: string | undefined) => void} & Omit<JSX.HTMLAttributes<HTMLInputElement>, 'value'>) {
+  const shown = typedOf(value);
+  const [typed, setTyped] = useState(shown);
+  useEffect(() => setTyped(shown), [shown]);
+  const store = (text: string) => { if (text !== shown) commit(yamlOf(field, text)); };
+  return <input {...rest} value={typed} inputMode={field.kind === 'number' || field.kind === 'integer' ? 'decimal' : undefined} spellcheck={false}
+    onInput={(e) => setTyped(e.currentTarget.value)} onChange={(e) => store(e.currentTarget.value)} />;
 }
 
 interface Props {
@@ -39,13 +50,11 @@ interface Props {
 
 export function Field({field, value, path, editing}: Props) {
   const shown = typedOf(value);
-  const [typed, setTyped] = useState(shown);
   const [open, setOpen] = useState(false);
-  useEffect(() => setTyped(shown), [shown]);
   const place = pathText(path);
   const id = `form-${place.replace(/[^\w]+/g, '-')}`;
   const wrong = editing.problems.filter((one) => one.path.replace(/^base\./, '') === place);
-  const commit = (text: string) => { if (text !== shown) editing.edit([[path, yamlOf(field, text)]]); };
+  const commit = (yaml: string | undefined) => editing.edit([[path, yaml]]);
   const common = {id, 'aria-invalid': wrong.length > 0, 'aria-describedby': `${id}-about`};
   const words = field.kind === 'truth' ? [{word: 'true', about: ''}, {word: 'false', about: ''}] : field.words;
   const number = field.kind === 'number' || field.kind === 'integer';
@@ -54,12 +63,11 @@ export function Field({field, value, path, editing}: Props) {
     <div class="row">
       <label for={id} class={field.required ? 'needed' : ''} title={field.about}>{field.name}</label>
       {words.length > 0
-        ? <select {...common} value={shown} onChange={(e) => commit(e.currentTarget.value)}>
+        ? <select {...common} value={shown} onChange={(e) => commit(yamlOf(field, e.currentTarget.value))}>
             <option value="">{field.standard || 'not given'}</option>
             {!words.some(({word}) => word === shown) && shown && <option value={shown}>{shown}</option>}
             {words.map(({word, about}) => <option key={word} value={word} title={about}>{word}</option>)}</select>
-        : <input {...common} value={typed} placeholder={field.standard} inputMode={number ? 'decimal' : undefined} spellcheck={false}
-            onInput={(e) => setTyped(e.currentTarget.value)} onChange={(e) => commit(e.currentTarget.value)} />}
+        : <Typed {...common} field={field} value={value} placeholder={field.standard} commit={commit} />}
       {number && <button type="button" class="axis" aria-pressed={axis >= 0} aria-expanded={open} aria-label={`axis over ${field.name}`} title="Vary it in a sweep" onClick={() => setOpen(!open)}>axis</button>}
       {wrong.map(({text}) => <p key={text} class="bad">{text}</p>)}
       <p id={`${id}-about`} class="about soft">{field.about}</p>

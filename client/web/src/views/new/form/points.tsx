@@ -1,10 +1,8 @@
 // The points of a table, a row each.
 
-import {useEffect, useState} from 'preact/hooks';
-
 import {fieldsOf, type FormField} from '../../../model/form/fields';
 import type {Path} from '../../../model/form/edit';
-import {pathText, typedOf, yamlOf} from './field';
+import {pathText, Typed} from './field';
 import type {Editing} from './object_fields';
 
 const MOST_SHOWN = 100;   // Rows; a longer table is measured, and belongs into a file or the text.
@@ -27,15 +25,6 @@ function nextPoint(columns: FormField[], rows: Record<string, unknown>[]): strin
   return `{${numbers.join(', ')}}`;
 }
 
-/** One number of a point. What is typed stays while the page is checked. */
-function Coordinate({column, value, label, commit}: {column: FormField; value: unknown; label: string; commit: (yaml: string | undefined) => void}) {
-  const shown = typedOf(value);
-  const [typed, setTyped] = useState(shown);
-  useEffect(() => setTyped(shown), [shown]);
-  const store = (text: string) => { if (text !== shown) commit(yamlOf(column, text)); };
-  return <input value={typed} inputMode="decimal" spellcheck={false} aria-label={label} onInput={(e) => setTyped(e.currentTarget.value)} onChange={(e) => store(e.currentTarget.value)} />;
-}
-
 export function Points({field, value, path, editing}: Props) {
   const columns = fieldsOf(field.type);
   const rows = Array.isArray(value) ? value as Record<string, unknown>[] : [];
@@ -51,7 +40,7 @@ export function Points({field, value, path, editing}: Props) {
           <tbody>{rows.map((row, i) => (
             <tr key={i}>
               {columns.map((column) => (
-                <td key={column.name}><Coordinate column={column} value={row[column.name]} label={`${column.name} of point ${i + 1}`}
+                <td key={column.name}><Typed field={column} value={row[column.name]} aria-label={`${column.name} of point ${i + 1}`}
                   commit={(yaml) => editing.edit([[[...path, i, column.name], yaml]])} /></td>))}
               <td><button type="button" class="quiet" aria-label={`Remove point ${i + 1}`} onClick={() => editing.edit([[[...path, i], undefined]])}>✕</button></td>
             </tr>))}</tbody>
