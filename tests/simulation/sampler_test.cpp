@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulation/course/sample_log.h"
 #include "simulation/run.h"
 #include "testing/cases.h"
 
@@ -218,6 +219,21 @@ TEST(Sampler, ChunksThatFillSlowlyAreHandedOutBySteps) {
   EXPECT_EQ(ExpectNoHole(seen.chunks), 201);
   EXPECT_GT(seen.chunks.size(), 5u);
   EXPECT_LT(seen.longest, (1 << 19) / seen.chunks[0].columns + 2000);  // That of a row.
+}
+
+TEST(Sampler, TheLongerARunIsTheMoreRarelyChunksAreHandedOutBySteps) {
+  const Scenario s = Flight::OneBall(1e-5);
+  std::size_t chunks = 0;
+  SampleLog log(s, {}, [&](const Samples&) { ++chunks; });
+  constexpr std::int64_t kStepsPerRow = 100'000;  // For a row; 58,000 are due at first.
+  for (std::int64_t row = 0; row <= 100'000; ++row) {
+    log.TakeUntil(
+        1e-5 * static_cast<double>(row), {}, kStepsPerRow * row,
+        [](double, std::vector<double>* values) { values->resize(9 * (values->size() / 9 + 1)); });
+  }
+  // 64 (1 + ln(t/t₀)) until 128 rows are a 64th of the run, then full ones: 410 and 720.
+  EXPECT_GT(chunks, 1000U);
+  EXPECT_LT(chunks, 1200U);
 }
 
 TEST(Sampler, AStopEndsAStepOfManySamplesAfterAChunk) {

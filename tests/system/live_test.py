@@ -42,11 +42,6 @@ def row_on_a_spring():
         output=scenario_pb2.Output(sample_interval_s=0.05))
 
 
-def free_ball():
-    """The same in steps that the tolerance chooses: a chunk fills in milliseconds."""
-    return endless()
-
-
 class LiveTest(ServerTest):
     flags = ("--workers=1",)
 
@@ -90,7 +85,7 @@ class LiveTest(ServerTest):
         self.assert_moves(row_on_a_spring())
 
     def test_a_run_of_quick_steps_is_shown_as_it_moves(self):
-        self.assert_moves(free_ball())
+        self.assert_moves(endless())
 
     def test_watchers_change_nothing(self):
         scenario = slow_ball(1e-6)

@@ -169,8 +169,8 @@ struct Scenario {
   int samples_per_contact = 0;
   /// Most of these samples in the whole run, ≥ 0.
   std::int64_t most_contact_samples = std::numeric_limits<std::int64_t>::max();
-  /// False if nobody asked for them: cycles have none that have as many at the interval, and a run
-  /// does not warn that it has ended them.
+  /// False if nobody asked for them: a cycle in which the interval is as short has none of its own,
+  /// and a run does not warn where they end.
   bool wants_all_contact_samples = true;
 };
 

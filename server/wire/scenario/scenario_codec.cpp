@@ -188,10 +188,12 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
 
 // What is recorded of the trajectory, of bodies and contacts that are decoded. Samples in contacts
 // are as many as those at equal intervals leave of the limit; where nobody asked for them they
-// make the trajectory twice as long at most, and a row of many columns is not repeated for each.
+// double the samples at most.
 void DecodeOutput(const v1::Scenario& message, const ScenarioLimits& limits, const Rules& rules,
                   Scenario* scenario) {
   constexpr double kMost = 1e15;  // Exact as a number.
+  // Numbers of those that nobody asked for, 8 MB: a row has all columns, so that each contact of a
+  // gas of 1,000 balls would have a million values of its own.
   constexpr double kMostByDefault = 1e6;
   scenario->sample_interval = DecodeSampleInterval(message, limits, rules);
   scenario->samples_per_contact =
