@@ -7,8 +7,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/base/output_file.h"
-#include "cli/link/job_names.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/link/watch_to_end.h"
 
 namespace contact::cli {

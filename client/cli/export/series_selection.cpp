@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "wire/column_bytes.h"
 
 namespace contact::cli {

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "cli/base/interrupt.h"
-#include "cli/link/job_names.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/link/watch_to_end.h"
 #include "wire/column_bytes.h"
 

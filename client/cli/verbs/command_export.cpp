@@ -11,7 +11,7 @@
 #include "cli/export/series_selection.h"
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
+#include "cli/link/jobs.h"
 #include "cli/link/recording.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"

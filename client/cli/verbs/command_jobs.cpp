@@ -8,9 +8,7 @@
 
 #include "cli/base/message.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
-#include "cli/link/job_names.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"
 #include "cli/text/convergence.h"
 #include "cli/text/print_job.h"

@@ -12,7 +12,7 @@
 #include "cli/base/table.h"
 #include "cli/help/candidates.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"
 #include "cli/text/convergence.h"
 #include "cli/text/print_job.h"

@@ -12,7 +12,7 @@
 #include "cli/base/failure.h"
 #include "cli/base/process.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
+#include "cli/link/jobs.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
+#include "cli/link/jobs.h"
 #include "cli/verbs/job/contactsim.h"
 #include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"

@@ -5,7 +5,7 @@
 #include "cli/base/message.h"
 #include "cli/input/checked_scenario.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_ledger.h"

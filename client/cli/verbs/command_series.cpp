@@ -5,8 +5,7 @@
 
 #include "cli/export/provenance.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_series.h"
 #include "cli/verbs/job/options.h"

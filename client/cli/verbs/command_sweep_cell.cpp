@@ -5,9 +5,7 @@
 
 #include "cli/base/message.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
-#include "cli/link/job_names.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/contactsim.h"

@@ -11,8 +11,7 @@
 
 #include "cli/base/message.h"
 #include "cli/link/connect.h"
-#include "cli/link/find_job.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "cli/link/recording.h"
 #include "cli/text/comparison/render_verification.h"
 #include "cli/text/print_job.h"

@@ -7,7 +7,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/base/number.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "cli/link/watch_jobs.h"
 #include "cli/text/convergence.h"
 #include "cli/text/render_job.h"

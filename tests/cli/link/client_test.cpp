@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cli/link/fake_server.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 

@@ -1,11 +1,10 @@
-#include "cli/link/find_job.h"
-
 #include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
 
 #include "cli/base/failure.h"
+#include "cli/link/jobs.h"
 #include "cli/verbs/verb_case.h"
 
 namespace contact::cli {

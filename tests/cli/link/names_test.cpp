@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/base/failure.h"
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 
 namespace contact::cli {
 namespace {

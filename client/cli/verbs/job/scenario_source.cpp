@@ -14,8 +14,7 @@
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
 #include "cli/input/yaml_load.h"
-#include "cli/link/find_job.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/options.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/link/job_names.h"
+#include "cli/link/jobs.h"
 #include "cli/verbs/job/options.h"
 
 namespace contact::cli {

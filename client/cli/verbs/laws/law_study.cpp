@@ -7,8 +7,7 @@
 
 #include "base/spelling.h"
 #include "cli/link/connect.h"
-#include "cli/link/job_names.h"
-#include "cli/link/job_source.h"
+#include "cli/link/jobs.h"
 #include "cli/verbs/job/follow.h"
 
 namespace contact::cli {

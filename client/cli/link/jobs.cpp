@@ -1,17 +1,22 @@
-#include "cli/link/find_job.h"
+#include "cli/link/jobs.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
+#include "base/ids.h"
 #include "base/spelling.h"
+#include "cli/base/assignments.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/style.h"
-#include "cli/link/job_names.h"
+#include "cli/base/text_file.h"
+#include "cli/link/connect.h"
 
 namespace contact::cli {
 namespace {
@@ -69,13 +74,60 @@ std::string JobThatBegins(Client& client, const std::string& begin) {
   throw Failure(ExitCode::kUsage, Ambiguous(begin, found));
 }
 
+v1::Job ReadJob(const std::string& path) {
+  v1::Job job;
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;  // Of a newer program.
+  const auto status = google::protobuf::util::JsonStringToMessage(ReadText(path), &job, options);
+  if (!status.ok() || job.name().empty()) {
+    throw Failure(ExitCode::kInvalidScenario,
+                  fmt::format("{}: holds no job as describe -o json prints it{}{}", path,
+                              status.ok() ? "" : ": ", std::string(status.message())));
+  }
+  return job;
+}
+
 }  // namespace
+
+std::string JobName(const std::string& job) {
+  return job.starts_with("jobs/") ? job : "jobs/" + job;
+}
+
+std::string ShortName(const std::string& name) {
+  constexpr std::string_view kCollection = "jobs/";
+  return name.starts_with(kCollection) ? name.substr(kCollection.size()) : name;
+}
+
+std::string RandomRequestId() { return RandomIds().NextUuid(); }
+
+std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts) {
+  return ParseAssignments(texts, "--label", "KEY=VALUE");
+}
 
 std::string FindJob(Client& client, const std::string& text) {
   if (const auto steps = StepsBack(text)) return JobBeforeLast(client, *steps);
   const std::string name = JobName(text);
   const std::size_t letters = ShortName(name).size();
   return letters == 0 || letters >= kWholeId ? name : JobThatBegins(client, name);
+}
+
+v1::Job GetJob(Client& client, const std::string& job) {
+  v1::GetJobRequest request;
+  request.set_name(JobName(job));
+  return client.Call(&Client::Stub::GetJob, request);
+}
+
+v1::Job GetSweep(Client& client, const std::string& job) {
+  v1::Job sweep = GetJob(client, job);
+  if (sweep.has_sweep()) return sweep;
+  throw Failure(ExitCode::kUsage,
+                fmt::format("{} is no sweep; see contactctl describe", sweep.name()));
+}
+
+v1::Job JobSource::Get(const std::string& name) {
+  if (std::filesystem::is_regular_file(name)) return ReadJob(name);
+  if (!client_) client_.emplace(Connect(settings_));
+  return GetJob(*client_, FindJob(*client_, name));
 }
 
 }  // namespace contact::cli

@@ -1,12 +1,34 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/link/client.h"
 #include "cli/settings/settings.h"
 
 namespace contact::cli {
+
+/// `jobs/ID` for `jobs/ID` or `ID`.
+std::string JobName(const std::string& job);
+
+/// `ID` for `jobs/ID`.
+std::string ShortName(const std::string& name);
+
+/// A random UUID, to be the request_id of one CreateJob call and its retries.
+std::string RandomRequestId();
+
+/// Reads KEY=VALUE texts of --label; the last value of a key counts. Throws Failure (kUsage) for a
+/// text of another form.
+std::map<std::string, std::string> ParseLabels(const std::vector<std::string>& texts);
+
+/// The name `jobs/ID` of the job that `text` means: an ID or `jobs/ID`; the beginning of an ID that
+/// only one job of the server has; `last`, the newest job; or `last~N`, the Nth before it. Asks the
+/// server unless the ID is whole. A text with which no ID begins is taken for an ID, so that the
+/// server says that there is no such job. Throws Failure: kUsage with the candidates if several IDs
+/// begin so, or for a bad N; kNotFound if the server has fewer jobs. Throws CallFailure.
+std::string FindJob(Client& client, const std::string& text);
 
 /// A job of the server, by ID or jobs/ID. Throws CallFailure.
 v1::Job GetJob(Client& client, const std::string& job);
