@@ -15,7 +15,7 @@
 #include "cli/input/scenario_file.h"
 #include "cli/input/settable_fields.h"
 #include "cli/input/templates.h"
-#include "cli/link/credentials.h"
+#include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"

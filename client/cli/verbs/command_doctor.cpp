@@ -11,7 +11,7 @@
 #include "cli/base/socket_advice.h"
 #include "cli/base/table.h"
 #include "cli/link/client.h"
-#include "cli/link/credentials.h"
+#include "cli/link/connect.h"
 #include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"

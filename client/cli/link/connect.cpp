@@ -1,4 +1,4 @@
-#include "cli/link/credentials.h"
+#include "cli/link/connect.h"
 
 #include <boost/algorithm/string/trim.hpp>
 #include <string>
@@ -47,6 +47,12 @@ std::shared_ptr<grpc::ChannelCredentials> CredentialsOf(const Settings& settings
   auto channel = Channel(settings, !token.empty());
   if (token.empty()) return channel;
   return grpc::CompositeChannelCredentials(channel, grpc::AccessTokenCredentials(token));
+}
+
+Client Connect(const Settings& settings) {
+  const bool json = settings.output == OutputFormat::kJson;
+  return {settings.server, settings.CallTimeout(), CredentialsOf(settings),
+          json ? Client::Answers::kAsSent : Client::Answers::kPrintable};
 }
 
 }  // namespace contact::cli
