@@ -7,7 +7,6 @@
 #include <thread>
 #include <utility>
 
-#include "cli/base/socket_advice.h"
 #include "cli/link/printable_answers.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -152,6 +151,16 @@ void RequireAddress(const std::string& server) {
 std::string TransportWords(const std::string& message) {
   if (Contains(message, "Connection refused")) return "connection refused";
   return IsOtherProtocol(message) ? "what answers there does not speak gRPC" : message;
+}
+
+std::string SocketAdvice(const std::string& server, const std::string& words) {
+  if (!server.starts_with("unix:")) return "";
+  const bool packaged = server.starts_with("unix:/run/contactd/");
+  if (Contains(words, "Permission denied")) {
+    return packaged ? "sudo adduser \"$USER\" contact, then log in again"
+                    : "log in again if you have joined its group, else ask its owner";
+  }
+  return packaged ? "sudo systemctl start contactd" : "";
 }
 
 CallFailure::CallFailure(const grpc::Status& status, const std::string& server)

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/base/process.h"
-#include "cli/base/socket_advice.h"
 #include "cli/base/table.h"
 #include "cli/link/client.h"
 #include "cli/link/connect.h"

@@ -1,6 +1,6 @@
-#include "cli/base/socket_advice.h"
-
 #include <gtest/gtest.h>
+
+#include "cli/link/client.h"
 
 namespace contact::cli {
 namespace {
