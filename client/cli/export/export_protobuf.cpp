@@ -8,7 +8,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/base/output_file.h"
 #include "cli/link/jobs.h"
-#include "cli/link/watch_to_end.h"
+#include "cli/link/watch.h"
 
 namespace contact::cli {
 namespace {

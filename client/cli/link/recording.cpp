@@ -6,7 +6,7 @@
 
 #include "cli/base/interrupt.h"
 #include "cli/link/jobs.h"
-#include "cli/link/watch_to_end.h"
+#include "cli/link/watch.h"
 #include "wire/column_bytes.h"
 
 namespace contact::cli {
@@ -14,11 +14,10 @@ namespace {
 
 void Replay(Client& client, const std::string& name, const Settings& settings, bool trajectory,
             Recorder* recorder) {
-  WatchOptions options;
-  options.name = name;
-  options.kinds = {"attempt_started", "iteration", "cycle", "group"};
+  WatchOptions options{.name = name,
+                       .kinds = {"attempt_started", "iteration", "cycle", "group"},
+                       .overflow = v1::DeliveryOptions::LAG};
   if (trajectory) options.kinds.emplace_back("frame_chunk");
-  options.overflow = v1::DeliveryOptions::LAG;
   WatchToEnd(client, std::move(options), settings, *recorder);
 }
 

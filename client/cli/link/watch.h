@@ -9,6 +9,7 @@
 
 #include "cli/link/client.h"
 #include "cli/link/reconnection.h"
+#include "cli/settings/settings.h"
 #include "contact/v1/event.pb.h"
 #include "contact/v1/job.pb.h"
 #include "contact/v1/job_service.pb.h"
@@ -38,9 +39,9 @@ struct WatchOptions {
   /// Only events with a higher sequence number come.
   std::uint64_t after_sequence = 0;
   /// Only events of these kinds come, such as `cycle`; empty: all.
-  std::vector<std::string> kinds;
+  std::vector<std::string> kinds = {};
   /// When to stop; never, if unset.
-  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
   /// Asked about ten times a second; true ends the watch.
   std::function<bool()> stopped = [] { return false; };
 
@@ -61,5 +62,22 @@ WatchEnd Watch(Client& client, const WatchOptions& options, WatchObserver& obser
 
 /// True for SUCCEEDED, FAILED and CANCELLED.
 bool IsFinal(v1::Job::State state);
+
+/// Says on the standard error that the connection was lost and other attempts follow.
+void TellLost(const std::string& why);
+/// Says that the connection is there again.
+void TellRegained();
+
+/// Watches a job until it has ended and all its events were heard. While a job that has not ended
+/// is waited for, a message says so, as one does of a lost connection. The time limit of `settings`
+/// and Ctrl-C, while the caller holds an Interrupt, end the watch early; `options.deadline` and
+/// `options.stopped` are replaced by them. Throws CallFailure as Watch does, and Failure (kTimeout,
+/// kInterrupted) if the watch ends before the job.
+void WatchToEnd(Client& client, WatchOptions options, const Settings& settings,
+                WatchObserver& observer);
+
+/// Calls `replay` until it returns true for a recording without holes, at most twice. Throws
+/// Failure (kRunFailed), which names `job`, if both recordings have holes.
+void ReplayWhole(const std::string& job, const std::function<bool()>& replay);
 
 }  // namespace contact::cli

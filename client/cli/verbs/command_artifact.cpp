@@ -10,8 +10,8 @@
 #include "cli/link/connect.h"
 #include "cli/link/download.h"
 #include "cli/link/jobs.h"
+#include "cli/link/watch.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/job/follow.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 

@@ -1,8 +1,7 @@
-#include "cli/link/watch_to_end.h"
-
 #include <gmock/gmock.h>
 
 #include "cli/link/fake_server.h"
+#include "cli/link/watch.h"
 
 namespace contact::cli {
 namespace {

@@ -103,10 +103,6 @@ ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, b
   return Detach(end, name);
 }
 
-void TellLost(const std::string& why) { Tell("connection lost ({}); trying again\n", why); }
-
-void TellRegained() { Tell("connected again\n"); }
-
 std::string NextSteps(const v1::Job& job) {
   const std::string id = ShortName(job.name());
   const std::string hints = ConvergenceHints(job);

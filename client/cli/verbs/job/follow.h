@@ -48,12 +48,6 @@ ExitCode Detach(WatchEnd end, const std::string& name);
 ExitCode DetachOrCancel(Client& client, WatchEnd end, const std::string& name, bool cancel,
                         const Settings& settings);
 
-/// Says on the standard error that the connection was lost and other attempts follow.
-void TellLost(const std::string& why);
-
-/// Says on the standard error that the connection is there again.
-void TellRegained();
-
 /// Lines with commands that are useful after `job` has ended, and with ConvergenceHints.
 std::string NextSteps(const v1::Job& job);
 

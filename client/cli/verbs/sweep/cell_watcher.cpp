@@ -10,7 +10,7 @@
 #include "cli/base/message.h"
 #include "cli/base/style.h"
 #include "cli/link/jobs.h"
-#include "cli/link/watch_to_end.h"
+#include "cli/link/watch.h"
 #include "cli/text/render_progress.h"
 #include "cli/verbs/job/follow.h"
 
@@ -71,10 +71,7 @@ void CellWatcher::Erase() {
 SweepCells ReadCells(Client& client, const v1::Job& job, const Settings& settings) {
   const Interrupt interrupt;
   CellCollector collector;
-  WatchOptions options;
-  options.name = job.name();
-  options.kinds = {"sweep_cell"};
-  WatchToEnd(client, std::move(options), settings, collector);
+  WatchToEnd(client, {.name = job.name(), .kinds = {"sweep_cell"}}, settings, collector);
   return collector.Take();
 }
 
