@@ -4,7 +4,6 @@
 
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/text/render_yaml.h"
 
 namespace contact::cli {
 

@@ -1,5 +1,3 @@
-#include "cli/text/plain_numbers.h"
-
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "cli/text/render_yaml.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include <string>
+
+#include "cli/text/render_json.h"
 
 namespace contact::cli {
 namespace {
