@@ -8,7 +8,7 @@
 
 #include "cli/base/style.h"
 #include "cli/link/watch.h"
-#include "cli/text/json_progress.h"
+#include "cli/text/render_progress.h"
 
 namespace contact::cli {
 

@@ -1,11 +1,11 @@
-#include "cli/text/json_progress.h"
-
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
+
+#include "cli/text/render_progress.h"
 
 namespace contact::cli {
 namespace {

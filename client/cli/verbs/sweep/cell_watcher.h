@@ -7,7 +7,7 @@
 
 #include "cli/link/watch.h"
 #include "cli/settings/settings.h"
-#include "cli/text/json_progress.h"
+#include "cli/text/render_progress.h"
 #include "cli/text/sweep/sweep_cells.h"
 
 namespace contact::cli {
