@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <utility>
 
 #include "base/spelling.h"
+#include "cli/base/number.h"
+#include "cli/text/render_ledger.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {
@@ -41,6 +47,153 @@ Parts PartsOf(const v1::Job& job) {
     return {summary.cycles_not_converged() + summary.cycles_infeasible(), summary.cycles()};
   }
   return {std::ranges::count_if(job.cycles(), Missed), job.cycles_size()};
+}
+
+constexpr double kNear = 1e-4;  // A miss that a user may accept.
+constexpr int kMostGroups = 3;  // Of which the hints tell what they can reach.
+
+// The NOT_CONVERGED cycles of a ledger by what ended their search.
+struct Causes {
+  std::int64_t exhausted = 0;  // All corrections were used.
+  std::int64_t near = 0;       // They miss by kNear at most.
+  std::int64_t stuck = 0;      // Neither: no better μ was found.
+  std::int64_t unproved = 0;   // Their energy does not balance, whatever their μ.
+  double worst_near = 1e-12;   // The least tolerance that there is.
+  double worst_residual = 0;   // Of those unproved.
+};
+
+// The residual that a row that proves itself has at most, see Cycle.identity_residual.
+double MostResidual(const v1::Solver& solver) {
+  const double tolerance =
+      solver.has_restitution_tolerance()
+          ? solver.restitution_tolerance()
+          : RuleOf<v1::Solver>(v1::Solver::kRestitutionToleranceFieldNumber).default_number();
+  return std::max(1e-7, 10 * tolerance);
+}
+
+const v1::FieldRule& RuleOfIterations() {
+  return RuleOf<v1::Solver>(v1::Solver::kMaxIterationsFieldNumber);
+}
+
+int MaxIterations(const v1::Solver& solver) {
+  return solver.has_max_iterations() ? solver.max_iterations()
+                                     : static_cast<int>(RuleOfIterations().default_number());
+}
+
+bool IsPapers(v1::Solver::Update update) {
+  return update != v1::Solver::UPDATE_UNSPECIFIED && update != v1::Solver::NEWTON_COUPLED;
+}
+
+// The relative miss of each group, by contact and number.
+std::map<std::pair<std::string, int>, double> MissesOf(const v1::Job& job) {
+  std::map<std::pair<std::string, int>, double> misses;
+  for (const v1::Group& group : job.groups()) {
+    misses[{group.contact(), group.number()}] =
+        RestitutionError(group.restitution_out(), group.restitution_in());
+  }
+  return misses;
+}
+
+// The most corrections that a cycle of each episode tells of.
+std::map<int, int> CorrectionsOf(const v1::Job& job) {
+  std::map<int, int> corrections;
+  for (const v1::Cycle& cycle : job.cycles()) {
+    int& most = corrections[cycle.episode()];
+    most = std::max(most, cycle.iterations());
+  }
+  return corrections;
+}
+
+Causes CausesOf(const v1::Job& job) {
+  const auto misses = MissesOf(job);
+  auto corrections = CorrectionsOf(job);
+  Causes causes;
+  for (const v1::Cycle& cycle : job.cycles()) {
+    if (cycle.status() != v1::Cycle::NOT_CONVERGED) continue;
+    if (cycle.identity_residual() > MostResidual(job.scenario().solver())) {
+      ++causes.unproved;
+      causes.worst_residual = std::max(causes.worst_residual, cycle.identity_residual());
+      continue;
+    }
+    const auto group = misses.find({cycle.contact(), cycle.group()});
+    const double miss = group != misses.end()
+                            ? group->second
+                            : RestitutionError(cycle.restitution_out(), cycle.restitution_in());
+    const bool exhausted = corrections[cycle.episode()] >= MaxIterations(job.scenario().solver());
+    causes.exhausted += exhausted;
+    if (miss <= kNear) {
+      ++causes.near;
+      causes.worst_near = std::max(causes.worst_near, miss);
+    } else if (!exhausted) {
+      ++causes.stuck;
+    }
+  }
+  return causes;
+}
+
+std::string Try(const std::string& setting, const std::string& why) {
+  return fmt::format("Try:   --set solver.{}   {}\n", setting, why);
+}
+
+std::string AboutSearches(const v1::Job& job) {
+  const v1::Solver& solver = job.scenario().solver();
+  const Causes causes = CausesOf(job);
+  const int most = MaxIterations(solver), allowed = static_cast<int>(RuleOfIterations().max());
+  std::string text;
+  if (causes.exhausted > 0 && most < allowed) {
+    text += Try(fmt::format("max_iterations={}", std::clamp(2 * most, 50, allowed)),
+                fmt::format("{} used up the {}", Count(causes.exhausted, "cycle", "cycles"),
+                            Count(most, "correction", "corrections")));
+  }
+  if (causes.near > 0) {
+    const double enough = std::pow(10, std::ceil(std::log10(causes.worst_near)));
+    text += Try(fmt::format("restitution_tolerance={:.0e}", enough),
+                fmt::format("{} by less", Count(causes.near, "cycle misses", "cycles miss")));
+  }
+  if (causes.unproved > 0) {
+    text += fmt::format(
+        "       The energy of {} does not balance, by up to {} of its work; a smaller "
+        "solver.relative_tolerance may help\n",
+        Count(causes.unproved, "cycle", "cycles"), RelativeError(causes.worst_residual));
+  }
+  if (causes.stuck == 0) return text;
+  const std::string stuck = Count(causes.stuck, "cycle", "cycles");
+  if (IsPapers(solver.update())) {
+    return text + Try("update=NEWTON_COUPLED",
+                      fmt::format("the paper's process gave {} up; it corrects each alone", stuck));
+  }
+  return text +
+         fmt::format("       No better μ was found for {}; more corrections would not help\n",
+                     stuck);
+}
+
+// What a group without solution can reach: `at most 0.31`; empty if the search does not tell.
+std::string Reach(const v1::Group& group) {
+  const double much = group.too_much_restitution(), little = group.too_little_restitution();
+  if (std::isnan(much) && !std::isnan(little)) return "at most " + Digits(little, 4);
+  return std::isnan(little) && !std::isnan(much) ? "at least " + Digits(much, 4) : "";
+}
+
+std::string AboutInfeasible(const v1::Job& job) {
+  const auto status = [](const auto& part) { return part.status(); };
+  if (std::ranges::count(job.cycles(), v1::Cycle::INFEASIBLE, status) == 0) return "";
+  const v1::Solver& solver = job.scenario().solver();
+  if (IsPapers(solver.update())) {
+    return Try("update=NEWTON_COUPLED", "lets INFEASIBLE cycles share one μ with their neighbours");
+  }
+  if (solver.restitution_scope() == v1::Solver::CYCLE) {
+    return Try("restitution_scope=AUTO",
+               "lets INFEASIBLE cycles share one μ with their neighbours");
+  }
+  std::string text = "       An INFEASIBLE group has no μ that would do\n";
+  int told = 0;
+  for (const v1::Group& group : job.groups()) {
+    const std::string reach = group.status() == v1::Cycle::INFEASIBLE ? Reach(group) : "";
+    if (reach.empty() || ++told > kMostGroups) continue;
+    text += fmt::format("       {} group {} can have a restitution of {}\n", group.contact(),
+                        group.number(), reach);
+  }
+  return text;
 }
 
 }  // namespace
@@ -80,6 +233,11 @@ void KeepMissed(v1::Job* job) {
   auto& groups = *job->mutable_groups();
   const auto reached = [](const v1::Group& group) { return !Misses(group.status()); };
   groups.erase(std::remove_if(groups.begin(), groups.end(), reached), groups.end());
+}
+
+std::string ConvergenceHints(const v1::Job& job) {
+  if (job.convergence() != v1::Job::PARTIAL) return "";
+  return AboutSearches(job) + AboutInfeasible(job);
 }
 
 }  // namespace contact::cli

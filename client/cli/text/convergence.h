@@ -22,4 +22,9 @@ std::string ConvergenceText(const v1::Job& job);
 /// those of the whole ledger.
 void KeepMissed(v1::Job* job);
 
+/// Lines, each with its end, about what may help where cycles of a finished run miss their
+/// restitution: a setting to try for each cause that the ledger shows, and where none would help
+/// what can be reached. Empty if the run is FULL or the ledger shows no such cycle.
+std::string ConvergenceHints(const v1::Job& job);
+
 }  // namespace contact::cli

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "cli/text/convergence_hints.h"
 #include "cli/text/render_job.h"
 #include "from_text.h"
 

@@ -13,7 +13,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
 #include "cli/link/jobs.h"
-#include "cli/text/convergence_hints.h"
+#include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_live.h"
 
