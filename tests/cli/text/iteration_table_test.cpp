@@ -1,7 +1,6 @@
-#include "cli/text/iteration_table.h"
-
 #include <gmock/gmock.h>
 
+#include "cli/text/render_live.h"
 #include "cli/text/render_progress.h"
 
 namespace contact::cli {
