@@ -151,8 +151,12 @@ void Emit(const Json& value, YAML::Emitter* out) {
   }
 }
 
-std::string Print(const google::protobuf::Message& message,
-                  const google::protobuf::util::JsonPrintOptions& options) {
+// `whole`: over several lines and with fields that are zero.
+std::string Print(const google::protobuf::Message& message, bool whole) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = whole;
+  options.add_whitespace = whole;
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   if (!status.ok()) throw std::runtime_error("cannot print as JSON: " + status.ToString());
@@ -171,18 +175,10 @@ std::string YamlOfJson(const std::string& json) {
   return std::string(out.c_str(), out.size()) + "\n";
 }
 
-std::string ToJson(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.preserve_proto_field_names = true;
-  options.always_print_primitive_fields = true;
-  options.add_whitespace = true;
-  return Print(message, options);
-}
+std::string ToJson(const google::protobuf::Message& message) { return Print(message, true); }
 
 std::string ToJsonLine(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.preserve_proto_field_names = true;
-  return Print(message, options) + "\n";
+  return Print(message, false) + "\n";
 }
 
 std::string EscapedJson(std::string_view json) {

@@ -9,6 +9,29 @@
 
 namespace contact::cli {
 
+/// The part of a run or sweep that is done, from 0 to 1; 0 while its length is unknown.
+double PartDone(const v1::Progress& progress);
+
+/// The time [s] that a job will still take at its speed so far; none while too little is done to
+/// tell.
+std::optional<double> TimeToGo(double part_done, double elapsed_s);
+
+/// TimeToGo in words, such as `, 3.2 s left`; empty for none.
+std::string TimeLeft(double part_done, double elapsed_s);
+
+/// How far a run is, how long it will still take, and what keeps it busy, in words.
+std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
+
+/// A bar with ProgressWords behind it, in at most `width` characters (0: no limit); the words alone
+/// where both do not fit. Without `utf8` the bar is of ASCII characters.
+std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width,
+                           bool utf8 = true);
+
+/// One line of JSON: kind, job, done; for a run time_s, end_time_s, steps, cycles, iterations,
+/// busy_with, for a sweep cells, cells_done, cells_failed, cells_not_converged; eta_s, null while
+/// it is unknown.
+std::string ProgressJson(const v1::Progress& progress, const std::string& job, double elapsed_s);
+
 /// Writes how far a job is for programs, an object of JSON a line: at most ten lines a second, and
 /// always the last progress. Not thread-safe.
 class JsonProgress {
@@ -38,28 +61,5 @@ class JsonProgress {
   std::optional<v1::Progress> last_;          // The newest progress.
   std::optional<v1::Progress> pending_;       // The newest progress while no line has told it.
 };
-
-/// One line of JSON: kind, job, done; for a run time_s, end_time_s, steps, cycles, iterations,
-/// busy_with, for a sweep cells, cells_done, cells_failed, cells_not_converged; eta_s, null while
-/// it is unknown.
-std::string ProgressJson(const v1::Progress& progress, const std::string& job, double elapsed_s);
-
-/// The part of a run or sweep that is done, from 0 to 1; 0 while its length is unknown.
-double PartDone(const v1::Progress& progress);
-
-/// The time [s] that a job will still take at its speed so far; none while too little is done to
-/// tell.
-std::optional<double> TimeToGo(double part_done, double elapsed_s);
-
-/// TimeToGo in words, such as `, 3.2 s left`; empty for none.
-std::string TimeLeft(double part_done, double elapsed_s);
-
-/// How far a run is, how long it will still take, and what keeps it busy, in words.
-std::string ProgressWords(const v1::Progress& progress, double elapsed_s);
-
-/// A bar with ProgressWords behind it, in at most `width` characters (0: no limit); the words alone
-/// where both do not fit. Without `utf8` the bar is of ASCII characters.
-std::string RenderProgress(const v1::Progress& progress, double elapsed_s, int width,
-                           bool utf8 = true);
 
 }  // namespace contact::cli
