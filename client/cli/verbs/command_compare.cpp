@@ -8,7 +8,6 @@
 #include "cli/input/measured.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
-#include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/contactsim.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/text/comparison/comparison_data.h"
 #include "cli/text/comparison/job_comparison.h"
 #include "cli/text/comparison/render_comparison.h"
 
