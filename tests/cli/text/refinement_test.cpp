@@ -1,8 +1,8 @@
-#include "cli/text/comparison/refinement.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "cli/text/comparison/verification.h"
 
 namespace contact::cli {
 namespace {

@@ -17,6 +17,9 @@
 namespace contact::cli {
 namespace {
 
+// Below it differences shrink so slowly that the sum of those to come is a guess.
+constexpr double kLeastOrder = 0.5;
+
 using Number = Verification::Number;
 
 constexpr double kRoundOff = 1e-13;  // Of a number after thousands of steps, relative.
@@ -189,6 +192,27 @@ class Verifier {
 };
 
 }  // namespace
+
+double ObservedOrder(double coarse, double middle, double fine, double ratio) {
+  const double order = std::log(std::abs((coarse - middle) / (middle - fine))) / std::log(ratio);
+  return std::isfinite(order) ? order : std::numeric_limits<double>::quiet_NaN();
+}
+
+double Richardson(double middle, double fine, double ratio, double order) {
+  return fine + (fine - middle) / (std::pow(ratio, order) - 1);
+}
+
+Refinement Refine(double coarse, double middle, double fine, double ratio, double floor) {
+  const double first = middle - coarse, second = fine - middle;
+  Refinement refinement{.limit = fine, .settles = std::abs(second) <= floor};
+  if (refinement.settles || !(std::abs(first) > floor)) return refinement;
+  if (std::signbit(first) != std::signbit(second)) return refinement;
+  refinement.order = ObservedOrder(coarse, middle, fine, ratio);
+  if (!(refinement.order >= kLeastOrder)) return refinement;
+  refinement.limit = Richardson(middle, fine, ratio, refinement.order);
+  refinement.settles = true;
+  return refinement;
+}
 
 std::string RefinementPlan::Field() const {
   return adaptive ? "solver.relative_tolerance" : "solver.step_s";
