@@ -1,9 +1,9 @@
-#include "cli/text/sweep/axis_text.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
+
+#include "cli/text/sweep/cell_words.h"
 
 namespace contact::cli {
 namespace {

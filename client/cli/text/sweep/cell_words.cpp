@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string_view>
 #include <vector>
 
 #include "cli/base/number.h"
+#include "wire/sweep/axis_words.h"
 
 namespace contact::cli {
 namespace {
@@ -14,6 +16,12 @@ namespace {
 bool IsUntouched(const v1::SweepCell& cell) { return cell.has_cycles() && cell.cycles() == 0; }
 
 }  // namespace
+
+std::string AxisText(const v1::Sweep::Axis& axis, double value, int digits) {
+  const std::string_view word = AxisWord(axis, value);
+  if (!word.empty()) return std::string(word);
+  return digits == 0 ? fmt::to_string(value) : Digits(value, digits);
+}
 
 v1::SweepCell::Source SourceOf(const v1::SweepCell& cell, int metric) {
   return metric < cell.sources_size() ? cell.sources(metric) : v1::SweepCell::RESULT;

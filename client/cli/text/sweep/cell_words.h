@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,13 @@
 #include "contact/v1/scenario.pb.h"
 
 namespace contact::cli {
+
+/// The cells of a sweep that have been computed, by their index.
+using SweepCells = std::map<int, v1::SweepCell>;
+
+/// A value of an axis for people: the word of an enum, such as `EXACT`, else the number with so
+/// many significant digits. 0 digits: as few as give the same double back.
+std::string AxisText(const v1::Sweep::Axis& axis, double value, int digits = 0);
 
 /// Where the metric of a cell comes from; RESULT if the server does not tell.
 v1::SweepCell::Source SourceOf(const v1::SweepCell& cell, int metric);

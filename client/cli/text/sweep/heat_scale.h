@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "cli/text/sweep/sweep_cells.h"
+#include "cli/text/sweep/cell_words.h"
 
 namespace contact::cli {
 

@@ -12,7 +12,6 @@
 
 #include "base/spelling.h"
 #include "cli/base/number.h"
-#include "cli/text/sweep/axis_text.h"
 #include "cli/text/sweep/cell_words.h"
 #include "cli/text/sweep/heat_scale.h"
 #include "cli/text/sweep/sweep_grid.h"

@@ -13,7 +13,6 @@
 #include "cli/base/table.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/text/sweep/axis_text.h"
 #include "cli/text/sweep/cell_words.h"
 #include "wire/sweep/axis_words.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/text/sweep/sweep_cells.h"
+#include "cli/text/sweep/cell_words.h"
 
 namespace contact::cli {
 
