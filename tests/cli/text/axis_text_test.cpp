@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 
 namespace contact::cli {
 namespace {

@@ -1,10 +1,9 @@
-#include "cli/text/sweep/heat_scale.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <vector>
 
+#include "cli/text/sweep/render_heat_map.h"
 #include "cli/text/sweep/sweep_grid.h"
 
 namespace contact::cli {

@@ -13,7 +13,7 @@
 #include "cli/base/table.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 #include "wire/sweep/axis_words.h"
 
 namespace contact::cli {

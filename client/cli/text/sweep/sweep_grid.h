@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 
 namespace contact::cli {
 

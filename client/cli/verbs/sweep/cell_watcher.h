@@ -8,7 +8,7 @@
 #include "cli/link/watch.h"
 #include "cli/settings/settings.h"
 #include "cli/text/render_progress.h"
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 
 namespace contact::cli {
 

@@ -5,7 +5,7 @@
 
 #include "cli/base/style.h"
 #include "cli/settings/command_line.h"
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 #include "contact/v1/job.pb.h"
 
 namespace contact::cli {

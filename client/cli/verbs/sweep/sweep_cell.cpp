@@ -14,7 +14,7 @@
 #include "cli/base/table.h"
 #include "cli/input/sweep_rules.h"
 #include "cli/text/render_job.h"
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 #include "wire/sweep/axis_words.h"
 #include "wire/sweep/sweep_fields.h"
 

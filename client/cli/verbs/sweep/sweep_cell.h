@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/base/style.h"
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 #include "contact/v1/job.pb.h"
 
 namespace contact::cli {

@@ -1,4 +1,4 @@
-#include "cli/text/sweep/cell_words.h"
+#include "cli/text/sweep/sweep_cells.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
