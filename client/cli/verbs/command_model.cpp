@@ -8,7 +8,7 @@
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_plot.h"
-#include "cli/verbs/laws/law_table.h"
+#include "cli/verbs/laws/law_study.h"
 #include "cli/verbs/laws/translate.h"
 #include "cli/verbs/verbs.h"
 

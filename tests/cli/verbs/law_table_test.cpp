@@ -1,5 +1,3 @@
-#include "cli/verbs/laws/law_table.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -7,6 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "cli/verbs/laws/law_study.h"
 #include "cli/verbs/verb_case.h"
 
 namespace contact::cli {
