@@ -7,9 +7,8 @@
 #include "cli/settings/column_choice.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
-#include "cli/verbs/laws/law_plot.h"
+#include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/law_study.h"
-#include "cli/verbs/laws/translate.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

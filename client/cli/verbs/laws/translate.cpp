@@ -1,4 +1,4 @@
-#include "cli/verbs/laws/translate.h"
+#include "cli/verbs/laws/law_commands.h"
 
 #include <fmt/format.h>
 

@@ -8,4 +8,8 @@ namespace contact::cli {
 /// that they deliver, over the restitution asked for.
 void AddLawPlot(CommandLine& line, CLI::App& model);
 
+/// Adds the command `translate` to `model`: a contact in the parameters of other simulators, and
+/// what they give back with them.
+void AddTranslate(CommandLine& line, CLI::App& model);
+
 }  // namespace contact::cli
