@@ -5,8 +5,8 @@
 
 #include <cstdio>
 
+#include "cli/base/files.h"
 #include "cli/base/interrupt.h"
-#include "cli/base/output_file.h"
 #include "cli/link/jobs.h"
 #include "cli/link/watch.h"
 

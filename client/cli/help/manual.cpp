@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "cli/base/failure.h"
+#include "cli/base/files.h"
 #include "cli/base/process.h"
-#include "cli/base/text_file.h"
 #include "cli/help/contract/reference.h"
 
 namespace contact::cli {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "cli/base/unit.h"
 #include "cli/input/table_dialect.h"
 

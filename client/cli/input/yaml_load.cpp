@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 
 namespace contact::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "base/file_descriptor.h"
 #include "base/replace_file.h"
 #include "cli/base/failure.h"
-#include "cli/base/output_file.h"
+#include "cli/base/files.h"
 #include "contact/v1/admin_service.grpc.pb.h"
 
 namespace contact::cli {

@@ -12,10 +12,10 @@
 #include "base/ids.h"
 #include "base/spelling.h"
 #include "cli/base/assignments.h"
+#include "cli/base/files.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/base/style.h"
-#include "cli/base/text_file.h"
 #include "cli/link/connect.h"
 
 namespace contact::cli {

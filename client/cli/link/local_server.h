@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cli/base/scratch_folder.h"
+#include "cli/base/files.h"
 
 namespace contact::cli {
 

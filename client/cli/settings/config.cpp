@@ -10,7 +10,7 @@
 
 #include "base/spelling.h"
 #include "cli/base/failure.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 
 namespace contact::cli {
 namespace {

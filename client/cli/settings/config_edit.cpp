@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/base/failure.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "cli/settings/config.h"
 
 namespace contact::cli {

@@ -9,9 +9,9 @@
 
 #include "base/replace_file.h"
 #include "base/spelling.h"
+#include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/base/table.h"
-#include "cli/base/text_file.h"
 #include "cli/settings/config.h"
 #include "cli/settings/config_edit.h"
 #include "cli/settings/resolve.h"

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "base/spelling.h"
+#include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/base/number.h"
-#include "cli/base/output_file.h"
 #include "cli/export/data_table.h"
 #include "cli/export/export_protobuf.h"
 #include "cli/export/series_selection.h"

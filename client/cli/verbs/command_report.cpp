@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/base/output_file.h"
+#include "cli/base/files.h"
 #include "cli/export/citation.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"

@@ -1,12 +1,11 @@
+#include "cli/base/files.h"
+
 #include <gmock/gmock.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "cli/base/failure.h"
-#include "cli/base/output_file.h"
-#include "cli/base/scratch_folder.h"
-#include "cli/base/text_file.h"
 #include "testing/temp_directory.h"
 
 namespace contact::cli {

@@ -5,8 +5,7 @@
 
 #include <cstdio>
 
-#include "cli/base/scratch_folder.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 
 namespace contact::cli {
 namespace {

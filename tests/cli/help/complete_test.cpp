@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/base/scratch_folder.h"
+#include "cli/base/files.h"
 #include "cli/help/candidates.h"
 #include "cli/help/completion.h"
 

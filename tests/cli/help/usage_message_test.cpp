@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/base/failure.h"
-#include "cli/base/scratch_folder.h"
+#include "cli/base/files.h"
 #include "cli/help/manual.h"
 #include "cli/help/usage.h"
 

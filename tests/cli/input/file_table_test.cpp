@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "cli/input/scenario_file.h"
 #include "testing/temp_directory.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/base/failure.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "testing/temp_directory.h"
 
 namespace contact::cli {

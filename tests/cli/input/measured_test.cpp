@@ -7,7 +7,7 @@
 #include <map>
 
 #include "cli/base/failure.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "testing/temp_directory.h"
 
 namespace contact::cli {

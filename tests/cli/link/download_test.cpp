@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "base/digest.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "cli/link/fake_server.h"
 #include "testing/temp_directory.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/base/scratch_folder.h"
+#include "cli/base/files.h"
 #include "cli/settings/command_line.h"
 
 namespace contact::cli {

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/base/scratch_folder.h"
-#include "cli/base/text_file.h"
+#include "cli/base/files.h"
 #include "cli/verbs/verb_case.h"
 #include "version.h"
 

@@ -12,9 +12,8 @@
 
 #include "base/file_descriptor.h"
 #include "cli/base/failure.h"
+#include "cli/base/files.h"
 #include "cli/base/process.h"
-#include "cli/base/scratch_folder.h"
-#include "cli/base/text_file.h"
 
 namespace contact::cli {
 namespace {

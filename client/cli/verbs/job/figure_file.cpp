@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cli/base/output_file.h"
+#include "cli/base/files.h"
 
 namespace contact::cli {
 namespace {

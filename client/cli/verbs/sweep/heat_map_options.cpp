@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "cli/base/failure.h"
+#include "cli/base/files.h"
 #include "cli/base/message.h"
-#include "cli/base/output_file.h"
 #include "cli/input/no_limits.h"
 #include "cli/text/sweep/render_heat_map.h"
 #include "cli/text/sweep/sweep_grid.h"
