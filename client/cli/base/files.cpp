@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/replace_file.h"
 #include "cli/base/failure.h"
 
 namespace contact::cli {
@@ -88,6 +89,12 @@ void WriteText(const std::string& text, const std::string& path) {
   OutputFile file(path);
   std::fwrite(text.data(), 1, text.size(), file.get());
   file.Close();
+}
+
+void ReplaceText(const std::string& text, const std::string& path, mode_t mode) {
+  if (const std::error_code error = ReplaceFile(path, text, mode)) {
+    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", path, error.message()));
+  }
 }
 
 std::vector<std::string> LinesOf(const std::string& text) {

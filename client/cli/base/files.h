@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -35,6 +37,9 @@ class OutputFile {
   std::FILE* file_;
 };
 
+/// Permission bits of a file with a secret.
+inline constexpr mode_t kOwnerOnly = 0600;
+
 /// The whole content of a file, any bytes; `-` is the standard input. Throws Failure (kLocal) if it
 /// cannot be read, or has more bytes than `most`.
 std::string ReadText(const std::string& path,
@@ -43,6 +48,10 @@ std::string ReadText(const std::string& path,
 /// Replaces the content of a file; an empty path is the standard output. Throws Failure (kLocal) if
 /// it cannot be written.
 void WriteText(const std::string& text, const std::string& path);
+
+/// The same, but whoever reads meanwhile, or after a crash, sees the old content or all of the new.
+/// `mode` is the permission bits of the file before the umask.
+void ReplaceText(const std::string& text, const std::string& path, mode_t mode = 0666);
 
 /// The lines of a text without their ends. A last line without an end is one, too.
 std::vector<std::string> LinesOf(const std::string& text);

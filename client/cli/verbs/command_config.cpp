@@ -7,7 +7,6 @@
 #include <set>
 #include <system_error>
 
-#include "base/replace_file.h"
 #include "base/spelling.h"
 #include "cli/base/files.h"
 #include "cli/base/message.h"
@@ -99,13 +98,9 @@ void Store(const std::string& profile, const std::string& key, const std::string
   if (path.empty()) throw Failure(ExitCode::kLocal, "there is no home for a config file: set HOME");
   const std::string old = std::filesystem::exists(path) ? ReadText(path) : "";
   const std::string text = WithValue(old, profile, key, value);
-  std::error_code error;
+  std::error_code error;  // That of the file is told.
   std::filesystem::create_directories(path.parent_path(), error);
-  error = ReplaceFile(path, text);
-  if (error) {
-    throw Failure(ExitCode::kLocal,
-                  fmt::format("cannot write {}: {}", path.string(), error.message()));
-  }
+  ReplaceText(text, path);
   Tell("{}\n", path.string());
 }
 

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <thread>
 
-#include "base/replace_file.h"
 #include "cli/base/failure.h"
+#include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/verbs/identity/device_login.h"
 #include "cli/verbs/identity/identity_commands.h"
@@ -76,13 +76,10 @@ struct LoginOptions {
 };
 
 void Keep(const std::string& token, const std::string& file) {
-  constexpr mode_t kOwnerOnly = 0600;
-  std::error_code error;
+  std::error_code error;  // That of the file is told.
   const fs::path folder = fs::path(file).parent_path();
   if (!folder.empty()) fs::create_directories(folder, error);
-  error = ReplaceFile(file, token + '\n', kOwnerOnly);
-  if (!error) return;
-  throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
+  ReplaceText(token + '\n', file, kOwnerOnly);
 }
 
 ExitCode Login(const LoginOptions& options, const Settings& settings) {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/file_descriptor.h"
-#include "base/replace_file.h"
 #include "base/spelling.h"
 #include "cli/base/failure.h"
+#include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
@@ -41,14 +41,6 @@ struct TokenOptions {
   std::string to;
 };
 
-// Replaces the file by one that nobody but its owner may read.
-void WriteSecret(const std::string& file, const std::string& text) {
-  constexpr mode_t kOwnerOnly = 0600;
-  if (const auto error = ReplaceFile(file, text, kOwnerOnly)) {
-    throw Failure(ExitCode::kLocal, fmt::format("cannot write {}: {}", file, error.message()));
-  }
-}
-
 std::vector<TokenRecord> ReadTokens(const std::string& file) {
   if (!fs::exists(file)) return {};
   std::string text, mistake;
@@ -68,7 +60,7 @@ void ChangeTokens(const std::string& file, Change change) {
   if (lock.valid()) ::flock(lock.get(), LOCK_EX);
   std::vector<TokenRecord> records = ReadTokens(file);
   change(&records);
-  WriteSecret(file, TokenTable::Format(records));
+  ReplaceText(TokenTable::Format(records), file, kOwnerOnly);
 }
 
 Principal PrincipalOf(const TokenOptions& options) {
@@ -86,7 +78,7 @@ ExitCode CreateToken(const TokenOptions& options, const Settings& settings) {
   const auto expires =
       std::chrono::floor<std::chrono::seconds>(system_clock::now() + RequireDuration(options.ttl));
   const NewToken made = MakeToken(PrincipalOf(options), expires);
-  if (!options.to.empty()) WriteSecret(options.to, made.token + "\n");
+  if (!options.to.empty()) ReplaceText(made.token + "\n", options.to, kOwnerOnly);
   ChangeTokens(options.file, [&made](auto* records) { records->push_back(made.record); });
   if (options.to.empty()) fmt::print("{}\n", made.token);
   Tell("token {} of {} until {}; {}\n", made.record.id, options.name, FormatUtc(expires),
