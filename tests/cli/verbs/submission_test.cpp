@@ -1,4 +1,4 @@
-#include "cli/settings/job_options.h"
+#include "cli/verbs/job/submission.h"
 
 #include <gtest/gtest.h>
 
@@ -12,22 +12,20 @@ namespace {
 // The job that a command line asks for.
 v1::Job JobOf(const std::string& words) {
   CLI::App app;
-  JobOptions options;
-  options.AddTo(app);
+  Submission submission;
+  submission.AddTo(app, "scenario");
   app.parse(words);
-  v1::Job job;
-  options.Apply(&job);
-  return job;
+  return submission.Request().job();
 }
 
-TEST(JobOptionsTest, WithoutFlagsTheJobIsUnlimited) {
+TEST(SubmissionTest, WithoutFlagsTheJobIsUnlimited) {
   const v1::Job job = JobOf("");
   EXPECT_EQ(job.priority(), 0);
   EXPECT_FALSE(job.has_budget());
   EXPECT_FALSE(job.has_time_to_live());
 }
 
-TEST(JobOptionsTest, EachFlagFillsItsField) {
+TEST(SubmissionTest, EachFlagFillsItsField) {
   const v1::Job job =
       JobOf("--priority -7 --budget-wall-time 2m --budget-steps 1e6 --budget-output 10kB --ttl 1h");
   EXPECT_EQ(job.priority(), -7);
@@ -37,11 +35,11 @@ TEST(JobOptionsTest, EachFlagFillsItsField) {
   EXPECT_EQ(job.time_to_live().seconds(), 3600);
 }
 
-TEST(JobOptionsTest, FractionsOfASecondAreKept) {
+TEST(SubmissionTest, FractionsOfASecondAreKept) {
   EXPECT_EQ(JobOf("--budget-wall-time 250ms").budget().wall_time().nanos(), 250'000'000);
 }
 
-TEST(JobOptionsTest, TextThatIsNoTimeOrNumberIsAUsageError) {
+TEST(SubmissionTest, TextThatIsNoTimeOrNumberIsAUsageError) {
   for (const char* words :
        {"--budget-wall-time soon", "--ttl 5parsecs", "--budget-steps 1.5", "--budget-steps many"}) {
     try {
