@@ -11,7 +11,6 @@
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/measured_comparison.h"
 #include "cli/verbs/verbs.h"

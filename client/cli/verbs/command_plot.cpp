@@ -9,7 +9,6 @@
 #include "cli/link/jobs.h"
 #include "cli/settings/command_line.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 

@@ -9,7 +9,6 @@
 #include "cli/text/print_job.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/follow.h"
 #include "cli/verbs/sweep/cell_watcher.h"
 #include "cli/verbs/sweep/heat_map_options.h"

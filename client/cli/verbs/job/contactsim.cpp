@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -85,6 +86,20 @@ std::vector<std::string> Command(const std::vector<std::string>& words, const Se
   return command;
 }
 
+OutputFormat FigureFormat(const std::string& file, const Settings& settings) {
+  if (settings.output == OutputFormat::kTable) return FormatOfFigure(file);
+  settings.RequireUse(kFigure);
+  return settings.output;
+}
+
+// The width of a txt figure on the terminal of the standard output.
+int ColumnsOf(const Settings& settings) {
+  constexpr int kLeast = 40;
+  constexpr int kUsual = 80;
+  const int width = settings.OutputStyle().width;
+  return width > 0 ? std::max(width, kLeast) : kUsual;
+}
+
 }  // namespace
 
 std::string ContactsimVersion() {
@@ -114,6 +129,23 @@ void RunContactsim(const std::vector<std::string>& words, const Settings& settin
   const int code =
       WaitForProcess(StartProcess(Command(words, settings), {.input = read_end.get()}));
   if (code != 0) throw Failure(static_cast<ExitCode>(code), "nothing is drawn");
+}
+
+OutputFormat FormatOfFigure(const std::string& path) {
+  return RequireFormatOfFile(path, kFigure, OutputFormat::kSvg);
+}
+
+std::vector<std::string> FigureWords(const std::string& file, const std::string& name,
+                                     const Settings& settings) {
+  const OutputFormat format = FigureFormat(file, settings);
+  std::vector<std::string> words = {fmt::format("--format={}", NameOf(format)),
+                                    fmt::format("--columns={}", ColumnsOf(settings))};
+  if (!file.empty()) RequireWritable(file);
+  if (!file.empty() || format != OutputFormat::kText) {
+    const std::string path = file.empty() ? name + std::string(InfoOf(format).ending) : file;
+    words.push_back("--file=" + path);
+  }
+  return words;
 }
 
 }  // namespace contact::cli

@@ -1,5 +1,3 @@
-#include "cli/verbs/laws/law_commands.h"
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,8 +5,8 @@
 
 #include "cli/base/csv.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/figure_file.h"
 #include "cli/verbs/job/options.h"
+#include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/law_study.h"
 
 namespace contact::cli {
