@@ -11,7 +11,6 @@
 #include "base/spelling.h"
 #include "cli/base/failure.h"
 #include "cli/base/scalar.h"
-#include "cli/input/checked_scenario.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
 #include "wire/rules/field_path.h"

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cli/base/message.h"
 #include "cli/base/scalar.h"
 #include "cli/input/override.h"
 #include "cli/input/yaml_load.h"
@@ -132,6 +133,20 @@ std::vector<Diagnostic> ScenarioFile::diagnostics() const {
                       diagnostic.line, diagnostic.column);
   });
   return sorted;
+}
+
+void TellAdvice(const ScenarioFile& file) {
+  for (const Diagnostic& advice : file.advice()) {
+    Tell("{}\n", Format(advice, "warning"));
+  }
+}
+
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides,
+                     const ScenarioLimits& limits) {
+  for (const std::string& assignment : overrides) file.Set(assignment);
+  file.Check(limits);
+  RequireNone(file.diagnostics());
+  return file;
 }
 
 }  // namespace contact::cli

@@ -74,4 +74,12 @@ class ScenarioFile {
   std::vector<Diagnostic> advice_;
 };
 
+/// The scenario with the overrides, such as `end_time_s=1e-3`, and its rules checked. Throws
+/// Failure (kInvalidScenario) that lists every mistake.
+ScenarioFile Checked(ScenarioFile file, const std::vector<std::string>& overrides,
+                     const ScenarioLimits& limits = {});
+
+/// Tells on the standard error what Check advises.
+void TellAdvice(const ScenarioFile& file);
+
 }  // namespace contact::cli

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "cli/base/scalar.h"
-#include "cli/input/checked_scenario.h"
 #include "cli/input/file_table.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"

@@ -3,7 +3,7 @@
 #include <variant>
 
 #include "cli/base/message.h"
-#include "cli/input/checked_scenario.h"
+#include "cli/input/scenario_file.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"

@@ -10,7 +10,7 @@
 
 #include "base/spelling.h"
 #include "cli/base/number.h"
-#include "cli/input/checked_scenario.h"
+#include "cli/input/scenario_file.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/yaml_load.h"
 #include "cli/link/connect.h"

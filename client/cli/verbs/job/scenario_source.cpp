@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "cli/base/message.h"
-#include "cli/input/checked_scenario.h"
 #include "cli/input/no_limits.h"
+#include "cli/input/scenario_file.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
 #include "cli/input/yaml_load.h"
