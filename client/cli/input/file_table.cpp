@@ -10,7 +10,7 @@
 #include "base/spelling.h"
 #include "cli/base/scalar.h"
 #include "cli/base/unit.h"
-#include "cli/input/yaml_place.h"
+#include "cli/input/yaml_document.h"
 #include "wire/column_name.h"
 #include "wire/rules/field_path.h"
 

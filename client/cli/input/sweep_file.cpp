@@ -18,8 +18,7 @@
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_rules.h"
 #include "cli/input/templates.h"
-#include "cli/input/yaml_load.h"
-#include "cli/input/yaml_place.h"
+#include "cli/input/yaml_document.h"
 #include "cli/input/yaml_reader.h"
 
 namespace contact::cli {

@@ -15,7 +15,7 @@
 #include "base/spelling.h"
 #include "cli/base/assignments.h"
 #include "cli/base/failure.h"
-#include "cli/input/yaml_place.h"
+#include "cli/input/yaml_document.h"
 
 namespace contact::cli {
 namespace {

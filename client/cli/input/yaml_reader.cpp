@@ -15,7 +15,7 @@
 
 #include "base/spelling.h"
 #include "cli/base/scalar.h"
-#include "cli/input/yaml_place.h"
+#include "cli/input/yaml_document.h"
 #include "wire/rules/field_path.h"
 
 namespace contact::cli {

@@ -12,7 +12,7 @@
 #include "cli/base/number.h"
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_file.h"
-#include "cli/input/yaml_load.h"
+#include "cli/input/yaml_document.h"
 #include "cli/link/connect.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_estimate.h"

@@ -1,11 +1,10 @@
-#include "cli/input/yaml_load.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "cli/base/failure.h"
+#include "cli/input/yaml_document.h"
 #include "testing/temp_directory.h"
 
 namespace contact::cli {

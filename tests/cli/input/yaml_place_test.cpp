@@ -1,6 +1,6 @@
-#include "cli/input/yaml_place.h"
-
 #include <gmock/gmock.h>
+
+#include "cli/input/yaml_document.h"
 
 namespace contact::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "cli/input/scenario_file.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
-#include "cli/input/yaml_load.h"
+#include "cli/input/yaml_document.h"
 #include "cli/link/jobs.h"
 #include "cli/text/render_json.h"
 #include "cli/verbs/job/options.h"

@@ -1,18 +1,22 @@
-#include "cli/input/yaml_load.h"
+#include "cli/input/yaml_document.h"
 
 #include <yaml-cpp/eventhandler.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "cli/base/files.h"
+#include "wire/rules/field_path.h"
 
 namespace contact::cli {
 namespace {
 
-constexpr std::size_t kMostBytes = 16 << 20;
+constexpr std::size_t kMostYamlBytes = 16 << 20;
 constexpr std::int64_t kMostValues = 1'000'000;
 
 // Counts the values of a text while it is parsed, before anything is made of them.
@@ -73,9 +77,27 @@ class ValueCounter final : public YAML::EventHandler {
   std::map<YAML::anchor_t, std::int64_t> values_;  // Of what has an anchor.
 };
 
+YAML::Node Child(const YAML::Node& node, const std::string& name) {
+  if (!node.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  for (const auto& entry : node) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == name) return entry.second;
+  }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+FoundNode Find(const YAML::Node& node, std::span<const PathStep> path) {
+  if (path.empty()) return {node, true};
+  const YAML::Node child = Child(node, path.front().name);
+  if (!child.IsDefined()) return {node, false};
+  if (!path.front().index) return Find(child, path.subspan(1));
+  const auto index = static_cast<std::size_t>(*path.front().index);
+  if (!child.IsSequence() || index >= child.size()) return {child, false};
+  return Find(child[index], path.subspan(1));
+}
+
 }  // namespace
 
-std::string ReadYaml(const std::string& path) { return ReadText(path, kMostBytes); }
+std::string ReadYaml(const std::string& path) { return ReadText(path, kMostYamlBytes); }
 
 // YAML::LoadAll would find a second document too, but of some texts, such as `{},`, yaml-cpp 0.7
 // finds documents without end.
@@ -89,6 +111,24 @@ YamlText LoadYaml(const std::string& text) {
     if (parser.HandleNextDocument(counter)) second = counter.begin();
   }
   return {YAML::Load(text), second};
+}
+
+std::string JoinPath(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+FoundNode FindNode(const YAML::Node& root, const std::string& path) {
+  return Find(root, ParsePath(path));
+}
+
+Diagnostic DiagnosticAt(std::string source, const YAML::Mark& mark, std::string field,
+                        std::string what, std::string hint) {
+  return {.source = std::move(source),
+          .line = mark.line + 1,
+          .column = mark.column + 1,
+          .field = std::move(field),
+          .what = std::move(what),
+          .hint = std::move(hint)};
 }
 
 }  // namespace contact::cli
