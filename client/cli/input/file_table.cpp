@@ -186,8 +186,8 @@ class FileTables::Request {
   bool failed_ = false;
 };
 
-void FileTables::Read(const YAML::Node& node, const std::string& path,
-                      const YamlReader::Report& report, google::protobuf::Message* message) {
+void FileTables::Read(const YamlReader::Report& report, const YAML::Node& node,
+                      const std::string& path, google::protobuf::Message* message) {
   Request(*this, node, path, report).Read(message);
 }
 

@@ -24,7 +24,7 @@ class FileTables {
 
   /// Reads the file that the mapping at `path` names into `message`. Mistakes in the mapping go to
   /// `report`, those in the file to mistakes().
-  void Read(const YAML::Node& node, const std::string& path, const YamlReader::Report& report,
+  void Read(const YamlReader::Report& report, const YAML::Node& node, const std::string& path,
             google::protobuf::Message* message);
 
   /// A rule that an entry of a list from a file breaks, at the place where the file has the entry;

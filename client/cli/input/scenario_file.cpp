@@ -38,7 +38,7 @@ class Assignment {
 
   void Assign(std::span<const PathStep> path, const std::string& walked, Message* message) {
     const PathStep& step = path.front();
-    const std::string here = walked.empty() ? step.name : walked + "." + step.name;
+    const std::string here = JoinPath(walked, step.name);
     const FieldDescriptor* field = message->GetDescriptor()->FindFieldByName(step.name);
     if (field == nullptr) {
       const auto& type = *message->GetDescriptor();
@@ -173,11 +173,8 @@ void ScenarioFile::ReadDocument(const std::string& text, const VariableValues& v
   };
   variables_ = ResolveVariables(variables, report, advise, &root_);
   RequireKnown(variables, variables_);
-  const auto read_file = [&](const YAML::Node& node, const std::string& path,
-                             google::protobuf::Message* message) {
-    tables_.Read(node, path, report, message);
-  };
-  YamlReader(report, read_file).ReadMessage(root_, "", &scenario_);
+  YamlReader(report, std::bind_front(&FileTables::Read, &tables_, report))
+      .ReadMessage(root_, "", &scenario_);
   std::ranges::copy(tables_.mistakes(), std::back_inserter(diagnostics_));
   std::ranges::copy(tables_.advice(), std::back_inserter(advice_));
 }

@@ -71,11 +71,8 @@ class SweepFile {
                                              const std::string& what, const std::string& hint) {
       AddAt(FindNode(root_, field).node.Mark(), field, what, hint);
     };
-    const auto read_file = [&](const YAML::Node& node, const std::string& path,
-                               google::protobuf::Message* message) {
-      tables_.Read(node, path, report, message);
-    };
-    YamlReader(report, read_file).ReadMessage(rest, "", &sweep_);
+    YamlReader(report, std::bind_front(&FileTables::Read, &tables_, report))
+        .ReadMessage(rest, "", &sweep_);
     std::ranges::copy(tables_.mistakes(), std::back_inserter(mistakes_));
     std::ranges::copy(tables_.advice(), std::back_inserter(advice_));
   }
