@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -156,15 +155,6 @@ void AdviseOnUnused(const YAML::Node& mapping, const Resolver& resolver,
 }
 
 }  // namespace
-
-void AddVariableFlag(CLI::App& command, std::vector<std::string>* assignments) {
-  command
-      .add_option("--var", *assignments,
-                  "Give a variable of the file another value, such as restitution=0.7; repeatable")
-      ->type_name("VARIABLE=VALUE")
-      ->take_all()
-      ->allow_extra_args(false);
-}
 
 VariableValues ParseVariables(const std::vector<std::string>& assignments) {
   return ParseAssignments(assignments, "--var", "VARIABLE=VALUE, such as restitution=0.7");

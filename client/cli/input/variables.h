@@ -2,7 +2,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <CLI/App.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,10 +13,7 @@ namespace contact::cli {
 /// Values of variables by name, as text.
 using VariableValues = std::map<std::string, std::string>;
 
-/// Adds --var to a command; its texts are for ParseVariables.
-void AddVariableFlag(CLI::App& command, std::vector<std::string>* assignments);
-
-/// Reads NAME=VALUE texts. Throws Failure (kUsage) for a text that is none.
+/// Reads the NAME=VALUE texts of --var. Throws Failure (kUsage) for a text that is none.
 VariableValues ParseVariables(const std::vector<std::string>& assignments);
 
 /// By the name of a variable the paths of the fields whose whole value it is, such as

@@ -61,4 +61,12 @@ inline CLI::Option* Repeatable(CLI::Option* flag) {
   return flag->take_all()->allow_extra_args(false);
 }
 
+/// Adds --var, whose texts are for ParseVariables.
+inline void AddVariableFlag(CLI::App& command, std::vector<std::string>* assignments) {
+  Repeatable(command.add_option(
+                 "--var", *assignments,
+                 "Give a variable of the file another value, such as restitution=0.7; repeatable"))
+      ->type_name("VARIABLE=VALUE");
+}
+
 }  // namespace contact::cli
