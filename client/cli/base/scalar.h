@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace contact::cli {
 
@@ -32,5 +35,12 @@ std::optional<Integer> ParseInteger(std::string_view text) {
 
 /// True if the bytes are well-formed UTF-8, which protobuf demands of texts.
 bool IsUtf8(std::string_view text);
+
+/// Reads NAME=VALUE texts into values by name. The first `=` ends the name; the last value of a
+/// name counts. Throws Failure (kUsage), which names `flag` and the `expected` form, for a text
+/// without a name or without `=`.
+std::map<std::string, std::string> ParseAssignments(const std::vector<std::string>& texts,
+                                                    std::string_view flag,
+                                                    std::string_view expected);
 
 }  // namespace contact::cli

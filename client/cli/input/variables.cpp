@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/base/assignments.h"
 #include "cli/base/failure.h"
+#include "cli/base/scalar.h"
 #include "cli/input/yaml_document.h"
 
 namespace contact::cli {

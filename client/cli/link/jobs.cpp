@@ -11,7 +11,6 @@
 
 #include "base/ids.h"
 #include "base/spelling.h"
-#include "cli/base/assignments.h"
 #include "cli/base/files.h"
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/base/assignments.h"
 #include "cli/base/failure.h"
 #include "cli/base/scalar.h"
 #include "cli/base/unit.h"

@@ -1,8 +1,7 @@
-#include "cli/base/assignments.h"
-
 #include <gmock/gmock.h>
 
 #include "cli/base/failure.h"
+#include "cli/base/scalar.h"
 
 namespace contact::cli {
 namespace {

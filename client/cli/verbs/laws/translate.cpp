@@ -1,15 +1,13 @@
-#include "cli/verbs/laws/law_commands.h"
-
 #include <fmt/format.h>
 
 #include <memory>
 #include <utility>
 
 #include "base/spelling.h"
-#include "cli/base/assignments.h"
 #include "cli/base/scalar.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
+#include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/translation_table.h"
 
 namespace contact::cli {
