@@ -12,7 +12,6 @@
 #include "cli/base/message.h"
 #include "cli/base/table.h"
 #include "cli/settings/config.h"
-#include "cli/settings/config_edit.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"

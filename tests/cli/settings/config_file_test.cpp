@@ -4,7 +4,6 @@
 
 #include "cli/base/failure.h"
 #include "cli/settings/config.h"
-#include "cli/settings/config_edit.h"
 
 namespace contact::cli {
 namespace {
