@@ -41,7 +41,7 @@ class VersionTest(unittest.TestCase):
 
     def test_program_readme_and_citation_file_have_the_same_doi(self):
         doi = re.search(rf"doi: ({DOI})", text("CITATION.cff"))[1]
-        for path in ("README.md", "client/cli/export/citation.cpp"):
+        for path in ("README.md", "client/cli/export/provenance.cpp"):
             self.assertEqual(set(re.findall(DOI, text(path))), {doi}, path)
 
 

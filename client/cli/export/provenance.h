@@ -24,4 +24,9 @@ std::string CommentLines(const Provenance& source);
 /// The solver's options of a scenario that keeps the rules, every default spelt out.
 v1::Solver SolverInFull(const v1::Scenario& scenario);
 
+/// Two BibTeX entries: the paper whose method the server computes with, and the run or sweep `job`,
+/// with its year, the version and revision of the contactd that computed it, and the SHA-256 of its
+/// scenario.
+std::string BibTeX(const v1::Job& job);
+
 }  // namespace contact::cli

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "cli/base/files.h"
-#include "cli/export/citation.h"
+#include "cli/export/provenance.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/verbs/job/contactsim.h"

@@ -1,7 +1,6 @@
-#include "cli/export/citation.h"
-
 #include <gmock/gmock.h>
 
+#include "cli/export/provenance.h"
 #include "testing/sample_run.h"
 
 namespace contact::cli {
