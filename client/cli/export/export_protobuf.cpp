@@ -1,5 +1,3 @@
-#include "cli/export/export_protobuf.h"
-
 #include <google/protobuf/io/zero_copy_stream_impl.h>
 #include <google/protobuf/util/delimited_message_util.h>
 
@@ -7,6 +5,7 @@
 
 #include "cli/base/files.h"
 #include "cli/base/interrupt.h"
+#include "cli/export/writers.h"
 #include "cli/link/jobs.h"
 #include "cli/link/watch.h"
 
@@ -56,9 +55,7 @@ class Writer final : public WatchObserver {
 std::int64_t WriteProtobuf(Client& client, const std::string& job, const Settings& settings,
                            const std::string& path) {
   const Interrupt interrupt;
-  WatchOptions options;
-  options.name = JobName(job);
-  options.kinds = {"state_changed"};
+  WatchOptions options{.name = JobName(job), .kinds = {"state_changed"}};
   WatchObserver silence;
   WatchToEnd(client, options, settings, silence);
   options.kinds.clear();

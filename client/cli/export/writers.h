@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "cli/export/data_table.h"
 #include "cli/export/provenance.h"
-#include "cli/settings/format.h"
+#include "cli/link/client.h"
+#include "cli/settings/settings.h"
 
 namespace contact::cli {
 
@@ -30,5 +32,12 @@ TableWriter* TableWriterOf(OutputFormat format);
 
 /// The writer of a format of all tables; null for other formats.
 FileWriter* FileWriterOf(OutputFormat format);
+
+/// Waits for the end of a job and writes it to a file as messages of the contract, each after its
+/// length as a varint: the Job as GetJob gives it, then every Event as WatchJob gives it, but no
+/// bookmarks. Returns how many events. Throws CallFailure, and Failure: kTimeout and kInterrupted
+/// when the wait ends first, kLocal if the file cannot be written.
+std::int64_t WriteProtobuf(Client& client, const std::string& job, const Settings& settings,
+                           const std::string& path);
 
 }  // namespace contact::cli

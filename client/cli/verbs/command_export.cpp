@@ -7,7 +7,6 @@
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/export/data_table.h"
-#include "cli/export/export_protobuf.h"
 #include "cli/export/series_selection.h"
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
