@@ -12,10 +12,6 @@
 namespace contact::cli {
 namespace {
 
-struct ExplainArguments {
-  std::vector<std::string> words;
-};
-
 void PrintWords(const std::vector<Word>& words, const Style& style) {
   for (const Word& word : words) {
     fmt::print("{}  ({})\n{}", Paint(word.name, Tone::kStrong, style), word.of,
@@ -52,15 +48,15 @@ std::vector<Word> Asked(const std::vector<WordList>& glossary,
   return words;
 }
 
-ExitCode Explain(const ExplainArguments& arguments, const Settings& settings) {
+ExitCode Explain(const std::vector<std::string>& words, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson});
   const std::vector<WordList> glossary = Glossary(Contract());
   if (settings.output == OutputFormat::kJson) {
-    PrintJson(Json(Asked(glossary, arguments.words)), settings);
-  } else if (arguments.words.empty()) {
+    PrintJson(Json(Asked(glossary, words)), settings);
+  } else if (words.empty()) {
     PrintAll(glossary, settings.OutputStyle());
   } else {
-    PrintWords(Asked(glossary, arguments.words), settings.OutputStyle());
+    PrintWords(Asked(glossary, words), settings.OutputStyle());
   }
   return ExitCode::kOk;
 }
@@ -68,10 +64,10 @@ ExitCode Explain(const ExplainArguments& arguments, const Settings& settings) {
 }  // namespace
 
 void AddExplain(CommandLine& line, CLI::App& command) {
-  auto arguments = std::make_shared<ExplainArguments>();
-  AddOption(line, command, "WORD", &arguments->words, ValueKind::kResultWord,
+  auto words = std::make_shared<std::vector<std::string>>();
+  AddOption(line, command, "WORD", words.get(), ValueKind::kResultWord,
             "Such as INFEASIBLE, NIRV or AUTO; without one all are explained");
-  line.SetAction(command, arguments, Explain);
+  line.SetAction(command, words, Explain);
 }
 
 }  // namespace contact::cli

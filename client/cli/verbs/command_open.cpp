@@ -19,10 +19,6 @@
 namespace contact::cli {
 namespace {
 
-struct OpenArguments {
-  std::string job;
-};
-
 // The page of a job, or of all jobs without one.
 std::string PageOf(Client& client, const std::string& job) {
   const v1::ServerInfo info = client.Call(&Client::Stub::GetServerInfo, v1::GetServerInfoRequest());
@@ -63,10 +59,10 @@ void Show(const std::string& page) {
   }
 }
 
-ExitCode Open(const OpenArguments& arguments, const Settings& settings) {
+ExitCode Open(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   Client client = Connect(settings);
-  const std::string page = PageOf(client, arguments.job);
+  const std::string page = PageOf(client, job);
   fmt::print("{}\n", page);
   std::fflush(stdout);
   if (settings.output == OutputFormat::kTable) Show(page);
@@ -76,10 +72,10 @@ ExitCode Open(const OpenArguments& arguments, const Settings& settings) {
 }  // namespace
 
 void AddOpen(CommandLine& line, CLI::App& command) {
-  auto arguments = std::make_shared<OpenArguments>();
-  AddOption(line, command, "JOB", &arguments->job, ValueKind::kJob,
+  auto job = std::make_shared<std::string>();
+  AddOption(line, command, "JOB", job.get(), ValueKind::kJob,
             "Its page. Default: the list of all jobs");
-  line.SetAction(command, arguments, Open);
+  line.SetAction(command, job, Open);
 }
 
 }  // namespace contact::cli
