@@ -17,7 +17,6 @@
 #include "cli/input/templates.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
-#include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/render_job.h"
 #include "contact/v1/event.pb.h"
@@ -170,11 +169,9 @@ Candidates ConfigKeyNames(const Settings&, const TypedWords& typed) {
 }
 
 // The profiles of all config files.
-Candidates ProfileNames(const Settings& settings, const TypedWords& typed) {
-  std::vector<std::string> keys;
-  for (const Candidate& key : ConfigKeyNames(settings, typed)) keys.push_back(key.text);
+Candidates ProfileNames(const Settings&, const TypedWords& typed) {
   Candidates profiles;
-  for (const ConfigFile& file : ReadConfigFiles({keys.begin(), keys.end()})) {
+  for (const ConfigFile& file : ConfigFilesOf(RootOf(typed))) {
     for (const auto& [name, section] : file.profiles) profiles.push_back({name, file.path});
   }
   return profiles;

@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "cli/settings/config.h"
-
 namespace contact::cli {
 namespace {
 
@@ -78,11 +76,15 @@ std::vector<std::string> ConfigKeys(const CLI::App& app) {
   return keys;
 }
 
+std::vector<ConfigFile> ConfigFilesOf(const CLI::App& app) {
+  const std::vector<std::string> keys = ConfigKeys(app);
+  return ReadConfigFiles({keys.begin(), keys.end()});
+}
+
 std::string VariableOf(const std::string& key) { return "CONTACT_" + boost::to_upper_copy(key); }
 
 void ResolveSettings(CLI::App& app, Settings* settings) {
-  const std::vector<std::string> keys = ConfigKeys(app);
-  const std::vector<ConfigFile> files = ReadConfigFiles({keys.begin(), keys.end()});
+  const std::vector<ConfigFile> files = ConfigFilesOf(app);
   for (const ConfigFile& file : files) {
     if (!file.mistake.empty()) settings->problems.push_back({ExitCode::kLocal, file.mistake});
   }

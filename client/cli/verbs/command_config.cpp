@@ -11,7 +11,6 @@
 #include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/base/table.h"
-#include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/options.h"
@@ -26,8 +25,6 @@ struct ConfigArguments {
   std::string value;
   bool show_origin = false;
 };
-
-using Keys = std::vector<std::string>;
 
 // Prints what is wrong with config files, after the settings that could be read.
 ExitCode TellProblems(const Settings& settings) {
@@ -77,7 +74,7 @@ ExitCode View(const ConfigArguments& arguments, const Settings& settings) {
 }
 
 void RequireKey(const std::string& key, const CLI::App& app) {
-  const Keys keys = ConfigKeys(app);
+  const std::vector<std::string> keys = ConfigKeys(app);
   if (std::ranges::find(keys, key) != keys.end()) return;
   throw Failure(ExitCode::kUsage,
                 WithHint(fmt::format("unknown key {}", Quoted(key)),
@@ -119,11 +116,6 @@ ExitCode Set(const ConfigArguments& arguments, const Settings& settings) {
   return ExitCode::kOk;
 }
 
-std::vector<ConfigFile> Files(const CLI::App& app) {
-  const Keys keys = ConfigKeys(app);
-  return ReadConfigFiles({keys.begin(), keys.end()});
-}
-
 std::set<std::string> Profiles(const std::vector<ConfigFile>& files) {
   std::set<std::string> names;
   for (const ConfigFile& file : files) {
@@ -134,7 +126,7 @@ std::set<std::string> Profiles(const std::vector<ConfigFile>& files) {
 
 ExitCode Use(const ConfigArguments& arguments, const Settings&) {
   const std::string& profile = arguments.value;
-  if (!profile.empty() && !Profiles(Files(*arguments.app)).contains(profile)) {
+  if (!profile.empty() && !Profiles(ConfigFilesOf(*arguments.app)).contains(profile)) {
     throw Failure(ExitCode::kUsage,
                   fmt::format("there is no profile {0}; make one: contactctl config set server "
                               "HOST:PORT --profile {1}",
@@ -146,7 +138,7 @@ ExitCode Use(const ConfigArguments& arguments, const Settings&) {
 
 ExitCode ListProfiles(const ConfigArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
-  const std::vector<ConfigFile> files = Files(*arguments.app);
+  const std::vector<ConfigFile> files = ConfigFilesOf(*arguments.app);
   Table table({{"PROFILE"}, {"SERVER"}, {"IN USE"}});
   for (const std::string& name : Profiles(files)) {
     if (settings.output == OutputFormat::kName) fmt::print("{}\n", name);

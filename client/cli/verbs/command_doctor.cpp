@@ -11,7 +11,6 @@
 #include "cli/base/table.h"
 #include "cli/link/client.h"
 #include "cli/link/connect.h"
-#include "cli/settings/config.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/contactsim.h"
@@ -104,9 +103,8 @@ Finding LookAtTerminal(const Settings& settings) {
 }
 
 void LookAtConfig(const CLI::App& app, const Settings& settings, Findings* findings) {
-  const std::vector<std::string> keys = ConfigKeys(app);
   std::string read;
-  for (const ConfigFile& file : ReadConfigFiles({keys.begin(), keys.end()})) {
+  for (const ConfigFile& file : ConfigFilesOf(app)) {
     if (file.mistake.empty()) read += (read.empty() ? "" : ", ") + file.path;
   }
   for (const Problem& problem : settings.problems) {
