@@ -56,6 +56,19 @@ void AddPrinting(CommandLine& line) {
       ->capture_default_str();
 }
 
+// The files by which client and server know each other.
+void AddCredentials(CommandLine& line) {
+  CLI::App& app = line.app();
+  Settings& settings = line.settings();
+  const auto add = [&](const char* name, std::string* file, const char* about) {
+    line.SetKind(app.add_option(name, *file, about), ValueKind::kFile);
+  };
+  add("--tls-ca", &settings.tls_ca, "Use TLS; the server's certificate is of these authorities");
+  add("--cert", &settings.cert, "Certificate that shows the server who you are");
+  add("--key", &settings.key, "Private key of --cert");
+  add("--token-file", &settings.token_file, "File with a token that shows the server who you are");
+}
+
 // Takes the value of -o of a command that draws a figure.
 void TakeFigureOutput(CommandLine& line, CLI::App& command, const std::string& value) {
   if (FormatOfFile(value, kFigure)) {
@@ -139,23 +152,6 @@ std::vector<std::string> GivenFlags(const CLI::App& command,
 }
 
 bool IsList(const CLI::Option& option) { return option.get_delimiter() == ','; }
-
-namespace {
-
-// The files by which client and server know each other.
-void AddCredentials(CommandLine& line) {
-  CLI::App& app = line.app();
-  Settings& settings = line.settings();
-  const auto add = [&](const char* name, std::string* file, const char* about) {
-    line.SetKind(app.add_option(name, *file, about), ValueKind::kFile);
-  };
-  add("--tls-ca", &settings.tls_ca, "Use TLS; the server's certificate is of these authorities");
-  add("--cert", &settings.cert, "Certificate that shows the server who you are");
-  add("--key", &settings.key, "Private key of --cert");
-  add("--token-file", &settings.token_file, "File with a token that shows the server who you are");
-}
-
-}  // namespace
 
 void AddGlobalFlags(CommandLine& line) {
   CLI::App& app = line.app();

@@ -37,8 +37,7 @@ std::string PageOf(Client& client, const std::string& job) {
                               "scenario or sweep, `contactctl open last` shows its page",
                               job));
   }
-  const std::string name = FindJob(client, job);
-  return fmt::format("{}/runs/{}", address, name.substr(name.find('/') + 1));
+  return fmt::format("{}/runs/{}", address, ShortName(FindJob(client, job)));
 }
 
 std::string Variable(const char* name) {
