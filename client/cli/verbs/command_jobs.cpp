@@ -66,10 +66,9 @@ ExitCode Cancel(const std::string& job, const Settings& settings) {
 ExitCode Delete(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kName});
   Client client = Connect(settings);
-  v1::DeleteJobRequest request;
-  request.set_name(FindJob(client, job));
-  client.Call(&Client::Stub::DeleteJob, request);
-  fmt::print("{}{}\n", request.name(), settings.output == OutputFormat::kTable ? "  deleted" : "");
+  const std::string name = FindJob(client, job);
+  DeleteJob(client, name);
+  fmt::print("{}{}\n", name, settings.output == OutputFormat::kTable ? "  deleted" : "");
   return ExitCode::kOk;
 }
 

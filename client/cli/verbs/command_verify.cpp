@@ -38,7 +38,7 @@ class Runs {
   ~Runs() {
     if (keep_) return;
     for (const std::string& name : names_) {
-      Attempt([&] { Delete(name); }) || Attempt([&] { CancelJob(client_, name); });
+      Attempt([&] { DeleteJob(client_, name); }) || Attempt([&] { CancelJob(client_, name); });
     }
   }
 
@@ -58,12 +58,6 @@ class Runs {
   }
 
  private:
-  void Delete(const std::string& name) {
-    v1::DeleteJobRequest request;
-    request.set_name(name);
-    client_.Call(&Client::Stub::DeleteJob, request);
-  }
-
   template <class Act>
   static bool Attempt(Act act) {
     try {

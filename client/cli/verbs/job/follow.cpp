@@ -82,6 +82,12 @@ v1::Job CancelJob(Client& client, const std::string& name) {
   return client.Call(&Client::Stub::CancelJob, request);
 }
 
+void DeleteJob(Client& client, const std::string& name) {
+  v1::DeleteJobRequest request;
+  request.set_name(name);
+  client.Call(&Client::Stub::DeleteJob, request);
+}
+
 ExitCode Detach(WatchEnd end, const std::string& name) {
   const bool interrupted = end == WatchEnd::kStopped;
   Tell("contactctl: {}; the job continues: contactctl watch {}\n",

@@ -39,6 +39,9 @@ WatchEnd AwaitEnd(Client& client, const std::string& name, const Settings& setti
 /// Asks the server to stop the job `name`. Returns the job as it is then. Throws CallFailure.
 v1::Job CancelJob(Client& client, const std::string& name);
 
+/// Deletes the job `name`, which has ended. Throws CallFailure.
+void DeleteJob(Client& client, const std::string& name);
+
 /// Says that the job continues although contactctl ends. `end` is why the watch ended: not
 /// kFinished. Returns kInterrupted or kTimeout.
 ExitCode Detach(WatchEnd end, const std::string& name);

@@ -39,9 +39,7 @@ v1::Job RunToItsEnd(Client& client, const v1::Scenario& scenario, const Settings
     throw Failure(ExitCode::kRunFailed,
                   fmt::format("{} did not succeed: contactctl describe {}", name, ShortName(name)));
   }
-  v1::DeleteJobRequest remove;
-  remove.set_name(name);
-  client.Call(&Client::Stub::DeleteJob, remove);
+  DeleteJob(client, name);
   return result;
 }
 
