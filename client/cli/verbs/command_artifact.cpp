@@ -11,8 +11,8 @@
 #include "cli/link/download.h"
 #include "cli/link/jobs.h"
 #include "cli/link/watch.h"
+#include "cli/settings/options.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

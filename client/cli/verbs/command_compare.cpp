@@ -8,10 +8,10 @@
 #include "cli/input/measured.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
+#include "cli/settings/options.h"
 #include "cli/text/comparison/render_comparison.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/measured_comparison.h"
 #include "cli/verbs/verbs.h"
 

@@ -11,9 +11,9 @@
 #include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/base/table.h"
+#include "cli/settings/options.h"
 #include "cli/settings/resolve.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

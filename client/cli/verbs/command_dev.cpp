@@ -10,7 +10,7 @@
 #include "cli/base/message.h"
 #include "cli/base/process.h"
 #include "cli/link/local_server.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/help/contract/glossary.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -12,7 +12,7 @@
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/link/recording.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

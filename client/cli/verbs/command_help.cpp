@@ -7,7 +7,7 @@
 
 #include "cli/help/completion.h"
 #include "cli/help/usage.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -11,7 +11,7 @@
 #include "cli/base/table.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

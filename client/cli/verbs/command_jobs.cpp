@@ -10,12 +10,12 @@
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"
+#include "cli/settings/options.h"
 #include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_ledger.h"
 #include "cli/verbs/job/follow.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

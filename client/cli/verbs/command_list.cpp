@@ -17,11 +17,11 @@
 #include "cli/link/jobs.h"
 #include "cli/link/watch_jobs.h"
 #include "cli/settings/column_choice.h"
+#include "cli/settings/options.h"
 #include "cli/text/convergence.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cli/settings/column_choice.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/law_study.h"
 #include "cli/verbs/verbs.h"

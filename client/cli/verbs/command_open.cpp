@@ -13,7 +13,7 @@
 #include "cli/base/process.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "cli/help/candidates.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

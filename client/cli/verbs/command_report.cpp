@@ -6,8 +6,8 @@
 #include "cli/export/provenance.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

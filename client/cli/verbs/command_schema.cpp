@@ -4,8 +4,8 @@
 
 #include "cli/help/contract/json_schema.h"
 #include "cli/help/contract/reference.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -6,9 +6,9 @@
 #include "cli/export/provenance.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_series.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -13,10 +13,10 @@
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/link/recording.h"
+#include "cli/settings/options.h"
 #include "cli/text/comparison/render_verification.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/follow.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

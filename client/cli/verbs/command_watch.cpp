@@ -14,13 +14,13 @@
 #include "cli/base/scalar.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
+#include "cli/settings/options.h"
 #include "cli/text/live_plot.h"
 #include "cli/text/print_job.h"
 #include "cli/text/render_job.h"
 #include "cli/text/render_json.h"
 #include "cli/text/render_live.h"
 #include "cli/verbs/job/follow.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/verbs.h"
 
 namespace contact::cli {

@@ -17,10 +17,10 @@
 #include "cli/base/unit.h"
 #include "cli/input/measured.h"
 #include "cli/link/connect.h"
+#include "cli/settings/options.h"
 #include "cli/text/comparison/render_signals.h"
 #include "cli/text/print_job.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/options.h"
 
 namespace contact::cli {
 namespace {

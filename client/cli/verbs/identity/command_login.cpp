@@ -12,6 +12,7 @@
 #include "cli/base/failure.h"
 #include "cli/base/files.h"
 #include "cli/base/message.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/identity/device_login.h"
 #include "cli/verbs/identity/identity_commands.h"
 
@@ -134,9 +135,8 @@ void AddLogin(CommandLine& line, CLI::App& login) {
       ->type_name("WORDS")
       ->capture_default_str();
   login.add_flag("--id-token", request.id_token, "Keep the ID token instead of the access token");
-  line.SetKind(login.add_option("--issuer-ca", options->issuer_ca,
-                                "Authorities of the provider's certificate. Default: the system's"),
-               ValueKind::kFile);
+  AddOption(line, login, "--issuer-ca", &options->issuer_ca, ValueKind::kFile,
+            "Authorities of the provider's certificate. Default: the system's");
   line.SetAction(login, options, Login);
 }
 

@@ -18,6 +18,7 @@
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/base/table.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
 #include "identity/audit_chain.h"
 #include "identity/secret_file.h"
@@ -165,9 +166,8 @@ ExitCode CheckAudit(const AuditOptions& options, const Settings& settings) {
 }
 
 void AddTokenFile(CommandLine& line, CLI::App& command, TokenOptions* options) {
-  line.SetKind(command.add_option("--tokens", options->file,
-                                  "The file that --tokens of the server names"),
-               ValueKind::kFile)
+  AddOption(line, command, "--tokens", &options->file, ValueKind::kFile,
+            "The file that --tokens of the server names")
       ->required();
 }
 
@@ -185,10 +185,8 @@ void AddToken(CommandLine& line, CLI::App& server) {
   line.SetWords(create->add_option("--role", options->roles, "What it may do"),
                 {"read", "submit", "operator", "admin", "server"})
       ->required();
-  line.SetKind(
-      create->add_option("-f,--file", options->to,
-                         "Write the token there, for its owner alone, instead of showing it"),
-      ValueKind::kFile);
+  AddOption(line, *create, "-f,--file", &options->to, ValueKind::kFile,
+            "Write the token there, for its owner alone, instead of showing it");
   create->add_option("--ttl", options->ttl, "How long it is valid")
       ->type_name("TIME")
       ->capture_default_str();
@@ -208,17 +206,15 @@ void AddAudit(CommandLine& line, CLI::App& server) {
   CLI::App* verify =
       audit->add_subcommand("verify", "Check that no line was changed, left out or put in");
   auto options = std::make_shared<AuditOptions>();
-  line.SetKind(verify->add_option("FILE", options->file,
-                                  "The file that --audit-log of the server names"),
-               ValueKind::kFile)
+  AddOption(line, *verify, "FILE", &options->file, ValueKind::kFile,
+            "The file that --audit-log of the server names")
       ->required();
-  line.SetKind(verify->add_option("--head", options->head,
-                                  "The file audit-head of --data-dir of the server: shows whether "
-                                  "lines are cut off at the end, or all were made anew"),
-               ValueKind::kFile);
-  line.SetKind(
-      verify->add_option("--key", options->key, "The file that --audit-key of the server names"),
-      ValueKind::kFile);
+  AddOption(
+      line, *verify, "--head", &options->head, ValueKind::kFile,
+      "The file audit-head of --data-dir of the server: shows whether lines are cut off at the "
+      "end, or all were made anew");
+  AddOption(line, *verify, "--key", &options->key, ValueKind::kFile,
+            "The file that --audit-key of the server names");
   line.SetAction(*verify, options, CheckAudit);
 }
 

@@ -15,8 +15,8 @@
 #include "cli/input/templates.h"
 #include "cli/input/yaml_document.h"
 #include "cli/link/jobs.h"
+#include "cli/settings/options.h"
 #include "cli/text/render_json.h"
-#include "cli/verbs/job/options.h"
 
 namespace contact::cli {
 namespace {

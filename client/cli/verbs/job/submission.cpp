@@ -7,7 +7,7 @@
 #include "cli/base/number.h"
 #include "cli/base/scalar.h"
 #include "cli/link/jobs.h"
-#include "cli/verbs/job/options.h"
+#include "cli/settings/options.h"
 
 namespace contact::cli {
 namespace {

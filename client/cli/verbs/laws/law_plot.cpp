@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "cli/base/csv.h"
+#include "cli/settings/options.h"
 #include "cli/verbs/job/contactsim.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/law_study.h"
 

@@ -5,8 +5,8 @@
 
 #include "base/spelling.h"
 #include "cli/base/scalar.h"
+#include "cli/settings/options.h"
 #include "cli/text/print_job.h"
-#include "cli/verbs/job/options.h"
 #include "cli/verbs/laws/law_commands.h"
 #include "cli/verbs/laws/translation_table.h"
 

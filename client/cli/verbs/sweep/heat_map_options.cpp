@@ -11,6 +11,7 @@
 #include "cli/base/files.h"
 #include "cli/base/message.h"
 #include "cli/input/no_limits.h"
+#include "cli/settings/options.h"
 #include "cli/text/sweep/render_heat_map.h"
 #include "cli/text/sweep/sweep_grid.h"
 #include "cli/verbs/job/contactsim.h"
@@ -42,14 +43,12 @@ void RequireMapEnding(const std::string& path) {
 }  // namespace
 
 void HeatMapOptions::AddTo(CommandLine& line, CLI::App& command) {
-  CLI::Option* metric = command.add_option(
-      "--metric", metrics_, "What is drawn, of several the first. Default: that of the sweep");
-  line.SetKind(metric->delimiter(',')->take_all()->allow_extra_args(false), ValueKind::kMetric);
-  line.SetWords(
-          command.add_option("--scale", scale_,
-                             "Of the colours of the heat map, or the axis of the line: linear "
-                             "or log, which does not show values <= 0"),
-          {"linear", "log"})
+  Repeatable(AddListOption(line, command, "--metric", &metrics_, ValueKind::kMetric,
+                           "What is drawn, of several the first. Default: that of the sweep"));
+  AddOption(
+      line, command, "--scale", &scale_, {"linear", "log"},
+      "Of the colours of the heat map, or the axis of the line: linear or log, which does not "
+      "show values <= 0")
       ->type_name("SCALE")
       ->capture_default_str();
   command.add_flag("--contour", contours_,
