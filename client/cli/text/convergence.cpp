@@ -62,22 +62,19 @@ struct Causes {
   double worst_residual = 0;   // Of those unproved.
 };
 
-// The residual that a row that proves itself has at most, see Cycle.identity_residual.
-double MostResidual(const v1::Solver& solver) {
-  const double tolerance =
-      solver.has_restitution_tolerance()
-          ? solver.restitution_tolerance()
-          : RuleOf<v1::Solver>(v1::Solver::kRestitutionToleranceFieldNumber).default_number();
-  return std::max(1e-7, 10 * tolerance);
+// A number of the solver, or what it is by default.
+double ValueOf(int field, const v1::Solver& solver) {
+  const NumberField& number = NumberOf<v1::Solver>(field);
+  return number.Find(solver).value_or(number.default_value);
 }
 
-const v1::FieldRule& RuleOfIterations() {
-  return RuleOf<v1::Solver>(v1::Solver::kMaxIterationsFieldNumber);
+// The residual that a row that proves itself has at most, see Cycle.identity_residual.
+double MostResidual(const v1::Solver& solver) {
+  return std::max(1e-7, 10 * ValueOf(v1::Solver::kRestitutionToleranceFieldNumber, solver));
 }
 
 int MaxIterations(const v1::Solver& solver) {
-  return solver.has_max_iterations() ? solver.max_iterations()
-                                     : static_cast<int>(RuleOfIterations().default_number());
+  return static_cast<int>(ValueOf(v1::Solver::kMaxIterationsFieldNumber, solver));
 }
 
 bool IsPapers(v1::Solver::Update update) {
@@ -138,7 +135,8 @@ std::string Try(const std::string& setting, const std::string& why) {
 std::string AboutSearches(const v1::Job& job) {
   const v1::Solver& solver = job.scenario().solver();
   const Causes causes = CausesOf(job);
-  const int most = MaxIterations(solver), allowed = static_cast<int>(RuleOfIterations().max());
+  const NumberField& iterations = NumberOf<v1::Solver>(v1::Solver::kMaxIterationsFieldNumber);
+  const int most = MaxIterations(solver), allowed = static_cast<int>(iterations.range.high);
   std::string text;
   if (causes.exhausted > 0 && most < allowed) {
     text += Try(fmt::format("max_iterations={}", std::clamp(2 * most, 50, allowed)),

@@ -10,6 +10,7 @@
 
 #include "cli/base/number.h"
 #include "cli/base/table.h"
+#include "wire/rules/field_rule.h"
 
 namespace contact::cli {
 namespace {
@@ -41,9 +42,10 @@ std::int64_t Least(std::initializer_list<std::int64_t> limits) {
 }
 
 std::int64_t MaxSteps(const v1::Job& job) {
-  constexpr std::int64_t kDefault = 100'000'000;
   if (job.has_sweep()) return 0;  // Each cell has a limit of its own.
-  return job.scenario().solver().has_max_steps() ? job.scenario().solver().max_steps() : kDefault;
+  const NumberField& steps = NumberOf<v1::Solver>(v1::Solver::kMaxStepsFieldNumber);
+  const double most = steps.Find(job.scenario().solver()).value_or(steps.default_value);
+  return static_cast<std::int64_t>(most);
 }
 
 double SecondsOf(const google::protobuf::Duration& duration) {
