@@ -7,8 +7,9 @@ import unittest
 import numpy as np
 from contact.v1 import job_pb2
 from contactsim.figures import PRESETS, Mark, channels_figure, preset_figure
+from contactsim.figures.characters import text
+from contactsim.figures.coarse import parted, spread
 from contactsim.figures.draw import drawn
-from contactsim.figures.draw_coarse import parted
 from contactsim.figures.figure import keep_largest, points_csv
 from contactsim.figures.look import Look
 from contactsim.figures.shown import Part
@@ -80,15 +81,36 @@ class CoarseTest(unittest.TestCase):
 
     def test_samples_rarer_than_contacts_are_points_that_no_line_joins(self):
         run = bouncing(0.01, 300)
-        for preset in "velocity", "force", "position", "deformation-velocity":
+        for preset, drifts in (("velocity", True), ("position", True), ("force", False),
+                               ("deformation-velocity", False)):
             panel = preset_figure(preset, run).panels[0]
-            line, dots = parted(panel.curves[0])
-            self.assertEqual((line.mark, dots.mark), (Mark.LINE, Mark.RARE))
-            self.assertLess(np.isfinite(line.y).sum(), 12, "before the first and after the last")
-            self.assertEqual(len(dots.y) + np.isfinite(line.y).sum(), 300)
+            line, *dots = parted(panel.curves[0])
+            self.assertEqual((line.mark, [each.mark for each in dots]),
+                             (Mark.LINE, [Mark.RARE] * drifts))
+            known = np.isfinite(line.y).sum()
+            self.assertLess(known, 12, "before the first and after the last")
+            self.assertEqual(sum(len(each.y) for each in dots), (300 - known) * drifts)
             marks = [part for curve in panel.curves if curve.is_mark for part in parted(curve)]
             self.assertLess(sum(len(mark.x) for mark in marks), 4)
         self.assertEqual(preset_figure("hysteresis", run).panels[0].curves[0].mark, Mark.RARE)
+
+    def test_a_swing_that_samples_miss_is_a_range_and_no_slow_swing(self):
+        run = bouncing(0.01, 300)
+        time = run.arrays["time"]
+        run.arrays["ball.velocity"] = 2 + 3 * np.sin(2 * np.pi * 301 * time)  # Sampled: once a second.
+        panel = preset_figure("velocity", run).panels[0]
+        (shown,) = spread(panel)
+        self.assertLess(shown.end - shown.start, 1)
+        np.testing.assert_allclose((shown.low, shown.high), [[-1], [5]], atol=1e-2)
+        self.assertEqual(len(parted(panel.curves[0])), 1)
+        self.assertEqual(spread(preset_figure("force", run).panels[0]), [], "the ledger tells more")
+        page = drawn(preset_figure("velocity", run))
+        self.assertIn("range of samples too rare to show the motion",
+                      [text.get_text() for text in page.axes[0].get_legend().get_texts()])
+        lines = text(preset_figure("velocity", run), 80).splitlines()
+        self.assertTrue(any(":" * 60 in line for line in lines))
+        self.assertFalse(any("*" * 7 in line or "×" * 3 in line for line in lines))
+        self.assertIn(" 99 of 99 contacts have fewer than 10 samples", lines)
 
     def test_a_window_counts_what_it_shows(self):
         part = Part(start=0.2, end=0.5)

@@ -9,12 +9,14 @@ import numpy as np
 
 from ..model import Array
 from .axes import AxisUnit, chosen_unit
+from .coarse import parted, spread
 from .figure import Curve, Figure, FigureError, Kind, Mark, Panel, keep_largest
 from .look import Look
 from .picture import cells
 from .sources import caption, printable
 
 _MARKS = "*#$%@&="
+_RANGE = ":"  # From the lowest to the highest where samples are too rare.
 _SHADES = " .:-=+*#%@"  # Of a map, from 0 to the largest value.
 _DASHED = 3  # From the character of a solid curve to that of a dashed one.
 _ROWS = 24  # Of a figure with one panel.
@@ -30,6 +32,7 @@ def text(figure: Figure, columns: int, look: Look = Look()) -> str:
     for panel in figure.panels:
         lines += (_panel(panel, columns, rows, look, figure.crowd) if panel.kind is Kind.LINES else
                   _rows(panel, columns, rows, look))
+    lines += dict.fromkeys(f" {panel.stamp}" for panel in figure.panels if panel.stamp)
     if figure.note:
         lines.append(f" {figure.note}")
     if look.provenance and figure.sources:
@@ -90,11 +93,14 @@ def _panel(panel: Panel, columns: int, rows: int, look: Look, crowd: int) -> lis
         axes.append(_Axis(values, chosen_unit(label, float(largest), log, look.units), log, cells))
     x, y = axes
     canvas = np.full((height, width), " ")
-    for curve in sorted(curves, key=lambda curve: curve.is_mark):
+    for each in panel.ranges + spread(panel):
+        _shade(canvas, x.place(np.stack([each.start, each.end])), y.place(np.stack([each.low, each.high])))
+    for curve in sorted((part for curve in curves for part in parted(curve)), key=lambda curve: curve.is_mark):
         _draw(canvas, x.place(curve.x), y.place(curve.y), curve)
     top = f"+- {y.unit.label} ".ljust(width + 1, "-") + "+"
     ticks = {height - 1 - cell: number for cell, number in y.ticks().items()}
-    lines = _key(curves, columns, crowd) + [" " * _MARGIN + top[:width + 2]]
+    ranged = bool(panel.ranges or spread(panel))
+    lines = _key(curves, columns, crowd, ranged) + [" " * _MARGIN + top[:width + 2]]
     lines += [f"{ticks.get(i, ''):>{_MARGIN - 1}} |{''.join(row)}|" for i, row in enumerate(canvas)]
     lines.append(" " * _MARGIN + "+" + "-" * width + "+")
     left, right = x.number(x.low), x.number(x.high)
@@ -141,7 +147,7 @@ def _character(curve: Curve) -> str:
 def _draw(canvas: Any, columns: Array, rows: Array, curve: Curve) -> None:
     """Points, and what joins them."""
     mark, points = _character(curve), (columns, rows)
-    if not curve.is_mark and curve.mark is not Mark.POINTS and len(columns) > 1:
+    if not curve.is_mark and curve.mark not in (Mark.POINTS, Mark.RARE) and len(columns) > 1:
         steps = np.maximum(np.abs(np.diff(columns)), np.abs(np.diff(rows)))
         parts = [np.linspace(0, 1, int(n) + 1) if n > 0 else np.zeros(1)
                  for n in np.nan_to_num(steps)]
@@ -154,6 +160,13 @@ def _draw(canvas: Any, columns: Array, rows: Array, curve: Curve) -> None:
         _put(canvas, *points, "o")
 
 
+def _shade(canvas: Any, columns: Array, rows: Array) -> None:
+    """Boxes from the first to the second of columns and rows, as far as they are on the canvas."""
+    for left, right, low, high in np.nan_to_num(np.concatenate([columns, rows]).T).astype(int):
+        top = len(canvas) - max(high, 0)
+        canvas[max(top - 1, 0):len(canvas) - max(low, 0), max(left, 0):max(right, 0) + 1] = _RANGE
+
+
 def _put(canvas: Any, columns: Array, rows: Array, mark: str) -> None:
     """The mark at each point that is known."""
     known = ~(np.isnan(columns) | np.isnan(rows))
@@ -161,12 +174,14 @@ def _put(canvas: Any, columns: Array, rows: Array, mark: str) -> None:
     canvas[len(canvas) - 1 - places[0], places[1]] = mark
 
 
-def _key(curves: list[Curve], columns: int, crowd: int) -> list[str]:
+def _key(curves: list[Curve], columns: int, crowd: int, ranged: bool) -> list[str]:
     """What each character is, as many entries in a line as there is room for."""
     entries = [f"{curve.label} {_character(curve) * 6}" for curve in curves
                if curve.keyed and curve.label]
     if crowd and entries:
         entries.append(f"{crowd} smaller: not shown")
+    if ranged:
+        entries.append(f"range where samples are too rare {_RANGE * 6}")
     lines = [""]
     for entry in entries:
         line = f"{lines[-1]}   {entry}" if lines[-1] else entry

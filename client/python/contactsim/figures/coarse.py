@@ -3,6 +3,7 @@ points. The ledger has the extremes of every contact, however rare the samples a
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Callable, Iterable
 
@@ -10,7 +11,7 @@ import numpy as np
 from contact.v1 import job_pb2
 
 from ..model import Array
-from .figure import Range
+from .figure import Curve, Mark, Panel, Range
 from .words import WORDS
 
 if TYPE_CHECKING:
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
 
 #: A cycle, or a time from one to the next, with fewer samples has no visible shape.
 FEW_SAMPLES: int = WORDS["coarse"]["few"]
+
+#: A curve swings if it goes up and down by more than so many times its range: of a swing that is seen
+#: too rarely, dots would be a slow one that never was. A drift, such as of dissipated energy, goes 1 times.
+_SWING = 1.5
 
 #: Of a cycle, the smallest and the largest value that the ledger tells.
 Extremes = tuple[float, float]
@@ -80,3 +85,44 @@ def cut_spans(run: Shown) -> list[tuple[float, float]]:
     return joined((max(cycle.start_time_s, run.part.start), min(cycle.end_time_s, run.part.end))
                   for _, law in run.contacts for _, cycle in run.cycles(law.name)
                   if cycle.status in (job_pb2.Cycle.CUT, job_pb2.Cycle.UNFINISHED))
+
+
+def parted(curve: Curve) -> list[Curve]:
+    """The line without the spans in which its points are too rare, and these points unless they swing.
+    What is dashed goes with another line, and has none; nor have cycles a mark there."""
+    rare, dotted = np.zeros(len(curve.x), bool), np.zeros(len(curve.x), bool)
+    for within in _loose_points(curve):
+        rare |= within
+        if curve.is_faint or not _swings(curve.y[within]):
+            dotted |= within
+    if not rare.any():
+        return [curve]
+    if curve.is_mark:
+        return [dataclasses.replace(curve, x=curve.x[~rare], y=curve.y[~rare], loose=())]
+    line = dataclasses.replace(curve, y=np.where(rare, np.nan, curve.y), loose=())
+    if curve.mark is Mark.DASHED or not dotted.any():
+        return [line]
+    mark = Mark.FAINT_DOTS if curve.is_faint else Mark.RARE
+    dots = dataclasses.replace(curve, x=curve.x[dotted], y=curve.y[dotted], mark=mark, keyed=False,
+                               loose=())
+    return [line, dots]
+
+
+def spread(panel: Panel) -> list[Range]:
+    """Between which values the points of each curve are that swings where they are too rare, unless the
+    ledger tells it of each cycle."""
+    told = {each.colour for each in panel.ranges}
+    spans = [(curve.colour, *ends, curve.y[within]) for curve in panel.curves
+             if not (curve.is_mark or curve.is_faint or curve.mark is Mark.DASHED or curve.colour in told)
+             for ends, within in zip(curve.loose, _loose_points(curve)) if _swings(curve.y[within])]
+    return [Range(colour, *(np.array([end]) for end in (start, stop, np.nanmin(y), np.nanmax(y))))
+            for colour, start, stop, y in spans]
+
+
+def _loose_points(curve: Curve) -> list[Array]:
+    return [(curve.x >= start) & (curve.x <= end) for start, end in curve.loose]
+
+
+def _swings(y: Array) -> bool:
+    known = y[np.isfinite(y)]
+    return len(known) > 2 and bool(np.abs(np.diff(known)).sum() > _SWING * np.ptp(known))

@@ -15,7 +15,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from .axes import chosen_unit
-from .draw_coarse import draw_coarse, draw_stamp, keys, parted
+from .coarse import parted
+from .draw_coarse import draw_coarse, draw_stamp, keys
 from .figure import Curve, Figure, Kind, Mark, Panel
 from .look import Look
 from .rows import draw_rows

@@ -3,7 +3,6 @@ stamp."""
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -11,7 +10,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Patch
 
-from .figure import Curve, Mark, Panel
+from .coarse import spread
+from .figure import Curve, Panel
 from .look import Look
 from .words import WORDS
 
@@ -23,28 +23,9 @@ _HATCH: dict[str, Any] = {"hatch": "////", "facecolor": "none", "edgecolor": WOR
                           "linewidth": 0.0}
 
 
-def parted(curve: Curve) -> list[Curve]:
-    """The line without the spans in which its points are too rare, and these points. What is dashed
-    goes with another line, and has none; nor have cycles a mark there."""
-    rare = np.zeros(len(curve.x), bool)
-    for start, end in curve.loose:
-        rare |= (curve.x >= start) & (curve.x <= end)
-    if not rare.any():
-        return [curve]
-    if curve.is_mark:
-        return [dataclasses.replace(curve, x=curve.x[~rare], y=curve.y[~rare], loose=())]
-    line = dataclasses.replace(curve, y=np.where(rare, np.nan, curve.y), loose=())
-    if curve.mark is Mark.DASHED:
-        return [line]
-    mark = Mark.FAINT_DOTS if curve.is_faint else Mark.RARE
-    dots = dataclasses.replace(curve, x=curve.x[rare], y=curve.y[rare], mark=mark, keyed=False,
-                               loose=())
-    return [line, dots]
-
-
 def draw_coarse(panel: Panel, ax: Axes, look: Look) -> None:
     """Ranges, each with a thin edge, for most are narrower than a pixel; hatches; and the stamp."""
-    for each in panel.ranges:
+    for each in panel.ranges + spread(panel):
         corners = [(each.start, each.low), (each.start, each.high), (each.end, each.high),
                    (each.end, each.low)]
         shapes = np.stack([np.column_stack(corner) for corner in corners], axis=1)
@@ -71,6 +52,8 @@ def keys(panel: Panel) -> list[tuple[Any, str]]:
     entries: list[tuple[Any, str]] = []
     if panel.ranges:
         entries.append((Patch(facecolor="#808080", alpha=0.3), WORDS["coarse"]["range"]))
+    if spread(panel):
+        entries.append((Patch(facecolor="#808080", alpha=0.3), WORDS["coarse"]["spread"]))
     if panel.cut:
         entries.append((Patch(**_HATCH), WORDS["coarse"]["cut"]))
     return entries
