@@ -6,7 +6,7 @@ import shown from '../../../tests/reference/coarse.json';
 import {Cycle_End, Cycle_Status, CycleSchema} from '../src/api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
-import {rarePoints} from '../src/model/coarse';
+import {rarePoints, spreadOf} from '../src/model/coarse';
 import type {RunView} from '../src/model/curves';
 import {mechanicsOf} from '../src/model/mechanics';
 import type {Panel} from '../src/model/panel';
@@ -63,14 +63,25 @@ describe('rare samples', () => {
     });
   }
   const rare = bouncing({period: 0.01, samples: 300});
-  it('are points that no line joins and no mark hides, in all plots', () => {
-    for (const id of ['velocity', 'force', 'deformation', 'deformation-velocity']) {
+  it('are points that no line joins and no mark hides, or ranges where they swing', () => {
+    for (const [id, drifts] of [['velocity', true], ['force', false], ['deformation', false], ['deformation-velocity', false]] as const) {
       const panel = panelOf(id, rare);
-      expect(rarePoints(panel.curves[0]!).length).toBeGreaterThan(280);
+      expect(rarePoints(panel.curves[0]!).length > 280, id).toBe(drifts);
+      expect(rarePoints(panel.curves[0]!).length > 0, id).toBe(drifts);
       expect(Math.max(...panel.curves.filter(({mark}) => mark === 'start' || mark === 'end').map(({x}) => x.length))).toBeLessThan(4);
-      expect(panel.note).toContain('dots: samples too rare to be joined');
+      expect(panel.note!.includes('dots: samples too rare to be joined'), id).toBe(drifts);
+      expect(spreadOf(panel).length, id).toBe(id === 'deformation-velocity' ? 1 : 0);   // The ledger tells the others.
     }
     expect(panelOf('hysteresis', rare).curves[0]!.mark).toBe('rare');
+  });
+  it('of a swing are a range and no slow swing', () => {
+    const view = bouncing({period: 0.01, samples: 300});
+    const time = view.series.get('time')!.values;
+    view.series.get('ball.velocity')!.values = time.map((t) => 2 + 3 * Math.sin(2 * Math.PI * 301 * t));   // Sampled: once a second.
+    const panel = panelOf('velocity', view);
+    expect(rarePoints(panel.curves[0]!)).toEqual([]);
+    expect(spreadOf(panel).map(({low, high}) => [low, high])).toEqual([[expect.closeTo(-1, 2), expect.closeTo(5, 2)]]);
+    expect(panel.note).toContain('pale: range of samples too rare to show the motion');
   });
   it('leave room for the peaks of the ledger', () => {
     expect(yRange(panelOf('force', bouncing({period: 0.1, samples: 60})), [0, 1])[1]).toBeGreaterThan(9);

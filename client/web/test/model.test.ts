@@ -15,12 +15,12 @@ import {bracketOf, iterationPanels, newestEpisode, nextOf, passesOf} from '../sr
 import {bestOf, chosenOf, JobList, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
 import {fieldsOf, varyingFields} from '../src/model/job_fields';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
-import {insideOf, interpolate, joined, panelCsv} from '../src/model/panel';
+import {insideOf, interpolate, joined, panelCsv, travel} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
 import {emptyRun, MOST_ITERATIONS, takeEvents} from '../src/model/runState';
 import {axisValues, cellIndex, viridis} from '../src/model/sweep';
-import {travel, yRange} from '../src/plots/range';
+import {yRange} from '../src/plots/range';
 import {localField, utcOfField} from '../src/ui/times';
 import {leafOf} from '../src/views/run/leaves';
 

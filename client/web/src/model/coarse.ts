@@ -6,10 +6,11 @@ import {Cycle_End, Cycle_Status, type Cycle} from '../api/generated/contact/v1/j
 import type {Scenario} from '../api/generated/contact/v1/scenario_pb';
 import type {RunPart, RunView} from './curves';
 import type {ContactModel} from './mechanics';
-import {joined, lowerBound, type Band, type Curve, type Panel, type Range} from './panel';
+import {extent, joined, lowerBound, travel, type Band, type Curve, type Panel, type Range} from './panel';
 
 const FEW = look.coarse.few;
 const OWN = look.coarse.own;
+const SWING = 1.5;   // Times its range.
 
 const timesOf = ({series}: RunPart): ArrayLike<number> => series.get('time')?.values ?? [];
 
@@ -121,10 +122,33 @@ export function rangesOf(view: RunView, contact: ContactModel, colour: number, v
 /** Whether samples are too rare there to be joined. */
 export const isLoose = (spans: Band[], x: number) => spans.some(({start, end}) => x >= start && x <= end);
 
-/** The points of a curve that no line joins. What is dashed goes with another curve, and has none. */
-export function rarePoints({x, y, loose = [], mark}: Curve): [number, number][] {
-  if (loose.length === 0 || mark === 'dashed') return [];
-  return Array.from(x, (at, i): [number, number] => [at, y[i]!]).filter(([at]) => isLoose(loose, at));
+const within = ({x, y}: Curve, {start, end}: Band) => Array.from(x, (at, i): [number, number] => [at, y[i]!]).filter(([at]) => at >= start && at <= end);
+
+/**
+ * Whether samples go up and down: of a swing that is seen too rarely, dots would be a slow one that never was. A drift,
+ * such as of dissipated energy, goes its range once.
+ */
+function swings(points: [number, number][]): boolean {
+  const known = points.map(([, y]) => y).filter(Number.isFinite);
+  const [low, high] = extent([known]) ?? [0, 0];
+  return known.length > 2 && travel(known, 0, known.length - 1) > SWING * (high - low);
+}
+
+/** The points of a curve that no line joins, unless they swing. What is dashed goes with another curve, and has none. */
+export function rarePoints(curve: Curve): [number, number][] {
+  if (curve.mark === 'dashed') return [];
+  return (curve.loose ?? []).map((span) => within(curve, span)).filter((points) => !swings(points)).flat();
+}
+
+/** Between which values the points of each curve are that swings where they are too rare, unless the ledger tells it. */
+export function spreadOf({curves, ranges = []}: Panel): Range[] {
+  const told = new Set(ranges.map(({label}) => label));
+  return curves.filter(({mark, label}) => mark === 'line' && !told.has(label)).flatMap((curve) => (curve.loose ?? []).flatMap((span) => {
+    const points = within(curve, span);
+    if (!swings(points)) return [];
+    const [low, high] = extent([points.map(([, y]) => y)])!;
+    return [{label: curve.label, colour: curve.colour, ...span, low, high}];
+  }));
 }
 
 /** The cycles whose starts and ends are marked: where samples are rarer than contacts, marks hide all. */
@@ -133,7 +157,9 @@ export function outside(spans: Band[], cycles: Cycle[]): Cycle[] {
 }
 
 /** What ranges, dots and hatches mean. */
-export function coarseNote({ranges = [], cut = [], curves}: Panel): string {
-  return [ranges.length > 0 && `pale: ${look.coarse.range}`, curves.some(({loose}) => loose?.length) && `dots: ${look.coarse.rare}`,
+export function coarseNote(panel: Panel): string {
+  const {ranges = [], cut = [], curves} = panel;
+  return [ranges.length > 0 && `pale: ${look.coarse.range}`, spreadOf(panel).length > 0 && `pale: ${look.coarse.spread}`,
+    curves.some((curve) => curve.loose?.length && rarePoints(curve).length > 0) && `dots: ${look.coarse.rare}`,
     cut.length > 0 && `hatched: ${look.coarse.cut}`].filter(Boolean).map((text) => `; ${text}`).join('');
 }

@@ -136,6 +136,19 @@ export function extent(lists: Iterable<ArrayLike<number>>, positive = false): [n
   return low <= high ? [low, high] : undefined;
 }
 
+/** How far values go up and down in all between two places; what is no number is passed over. */
+export function travel(values: ArrayLike<number | null | undefined>, first: number, last: number): number {
+  let sum = 0;
+  let before: number | undefined;
+  for (let i = first; i <= last; ++i) {
+    const value = values[i];
+    if (!Number.isFinite(value)) continue;
+    sum += Math.abs(value! - (before ?? value!));
+    before = value!;
+  }
+  return sum;
+}
+
 /** A text as a field of CSV. */
 export function csvField(text: string): string {
   return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;

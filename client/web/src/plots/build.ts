@@ -2,12 +2,12 @@
 
 import uPlot from 'uplot';
 
-import type {Curve, Panel} from '../model/panel';
+import {travel, type Curve, type Panel} from '../model/panel';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {axesOf, type Ink} from './axes';
 import {drawBehind, drawOver, LANE_PX} from './layers';
 import {shortName} from './words';
-import {travel, xRange, yRange, type Window} from './range';
+import {xRange, yRange, type Window} from './range';
 
 /** What a plot shows now; uPlot's functions read it when they draw. */
 export interface Shown {

@@ -3,7 +3,7 @@
 
 import type uPlot from 'uplot';
 
-import {rarePoints} from '../model/coarse';
+import {rarePoints, spreadOf} from '../model/coarse';
 import type {Curve, Panel} from '../model/panel';
 import {pixelsOf, waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
@@ -89,11 +89,11 @@ function drawCut({u, panel, ink}: Sheet, ctx: CanvasRenderingContext2D): void {
   }
 }
 
-/** Boxes from the smallest to the largest value of contacts; an edge, for most are narrower than a pixel. */
+/** Boxes from the smallest to the largest value of contacts, or of samples; an edge, for most are narrower than a pixel. */
 function drawRanges({u, panel, theme}: Sheet, hidden: Set<string>, ctx: CanvasRenderingContext2D): void {
   ctx.globalAlpha = 0.3;
   ctx.lineWidth = devicePixelRatio / 2;
-  for (const {label, colour, start, end, low, high} of panel.ranges ?? []) {
+  for (const {label, colour, start, end, low, high} of [...panel.ranges ?? [], ...spreadOf(panel)]) {
     if (hidden.has(label)) continue;
     ctx.fillStyle = ctx.strokeStyle = colourOf(colour, theme);
     const box = [px(u, start), py(u, high), px(u, end) - px(u, start), py(u, low) - py(u, high)] as const;

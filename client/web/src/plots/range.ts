@@ -38,16 +38,3 @@ export function yRange(panel: Panel, [from, to]: Window): Window {
   const [low, high] = padded(found, !!panel.logY);
   return panel.labels?.length ? [low, high + 0.1 * (high - low)] : [low, high];
 }
-
-/** How far values go up and down in all between two places; what is no number is passed over. */
-export function travel(values: ArrayLike<number | null | undefined>, first: number, last: number): number {
-  let sum = 0;
-  let before: number | undefined;
-  for (let i = first; i <= last; ++i) {
-    const value = values[i];
-    if (!Number.isFinite(value)) continue;
-    sum += Math.abs(value! - (before ?? value!));
-    before = value!;
-  }
-  return sum;
-}

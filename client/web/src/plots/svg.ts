@@ -3,7 +3,7 @@
 import type uPlot from 'uplot';
 
 import look from '../../../python/contactsim/figures/words.json';
-import {isLoose, rarePoints} from '../model/coarse';
+import {isLoose, rarePoints, spreadOf} from '../model/coarse';
 import type {Curve, Panel} from '../model/panel';
 import {waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf} from '../ui/theme';
@@ -107,12 +107,13 @@ function waterfall({x, y: at}: Frame, raster: Raster): string {
     `<path d="${Array.from(y, (value, i) => `${i ? 'L' : 'M'}${r(x(raster.time[i]!))} ${r(at(value))}`).join('')}" stroke="${colour}"/>`).join('');
 }
 
-/** What the end of the run cuts, and between which values contacts are that have too few samples. */
-function coarse({x, y, top, height}: Frame, {cut = [], ranges = []}: Panel): string {
+/** What the end of the run cuts, and between which values contacts and swings are that have too few samples. */
+function coarse({x, y, top, height}: Frame, panel: Panel): string {
+  const {cut = [], ranges = []} = panel;
   const box = (from: number, to: number, low: number, high: number) => `x="${r(from)}" y="${r(low)}" width="${r(to - from)}" height="${r(high - low)}"`;
   return [
     ...cut.map(({start, end}) => `<rect ${box(x(start), x(end), top, top + height)} fill="url(#cut)"/>`),
-    ...ranges.map(({colour, start, end, low, high}) =>
+    ...[...ranges, ...spreadOf(panel)].map(({colour, start, end, low, high}) =>
       `<rect ${box(x(start), x(end), y(high), y(low))} fill="${colourOf(colour, 'light')}" stroke="${colourOf(colour, 'light')}" stroke-width="0.5" opacity="0.3"/>`),
   ].join('');
 }
