@@ -31,7 +31,7 @@ class CompareTest(CliTest):
                               "B3.velocity", code=8)
         self.assertEqual(said, f"{path}\n")
         rows = list(csv.reader(path.read_text("utf-8").splitlines()))
-        self.assertEqual(rows[0], ["curve", "time [s]", "B3.velocity [m/s]"])
+        self.assertEqual(rows[0], ["curve", "time [s]", "velocity of B3 [m/s]"])
         for name, key in ((self.a, "0.8"), (self.b, "0.6")):
             values = [float(value) for curve, _, value in rows[1:] if curve == key]
             self.assertEqual(len(values), 1001)
@@ -40,7 +40,7 @@ class CompareTest(CliTest):
         self.run_it("compare", self.a, self.b, self.solve("--set", "end_time_s=3e-3"), "--plot",
                     svg, code=8)
         drawn = svg.read_text("utf-8")
-        for words in ("B1-B2.contact_force [N]", "B2-B3.contact_force [N]", "end_time_s = 0.003",
+        for words in ("contact force of B1-B2 [N]", "contact force of B2-B3 [N]", "end_time_s = 0.003",
                       self.server.get(self.b).spec_sha256):
             self.assertIn(words, drawn)
         _, said = self.run_it("compare", self.a, self.b, "--plot", svg, "--channels", "B9.x",

@@ -73,12 +73,12 @@ class CompareMeasuredTest(CliTest):
         _, said = self.compare(path, "--plot", points)
         self.assertEqual(said, f"{points}\n")
         rows = list(csv.reader(points.read_text("utf-8").splitlines()))
-        self.assertEqual(rows[0], ["curve", "time [s]", f"{FORCE} [N]"])
+        self.assertEqual(rows[0], ["curve", "time [s]", "contact force of B1-B2 [N]"])
         self.assertEqual(sum(row[0] == str(path) for row in rows), len(self.rows))
         self.assertGreater(sum(row[0] == self.job for row in rows), len(self.rows))
         svg = self.folder / "both.svg"
         self.compare(path, "--plot", svg)
-        self.assertIn(f"{FORCE} [N]", svg.read_text("utf-8"))
+        self.assertIn("contact force of B1-B2 [N]", svg.read_text("utf-8"))
 
     def test_mistakes_are_told_with_what_there_is(self):
         path = self.measured("time,speed", lambda t, v, f: (t, v))

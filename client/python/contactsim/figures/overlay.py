@@ -31,7 +31,7 @@ def overlay_figure(runs: Sequence[Result], channels: Sequence[str] = ()) -> Figu
         for run in runs:
             if channel not in run.arrays:
                 raise FigureError(f"{run.name} recorded no {channel}")
-        panels.append(Panel("time [s]", f"{channel} [{runs[0].units[channel]}]", [
+        panels.append(Panel("time [s]", _label(channel, runs[0].units[channel]), [
             Curve("" if panels else _key(parameters, run, place), place, run["time"], run[channel])
             for place, run in enumerate(runs)]))
     return Figure(title, panels, [source_of(run.job) for run in runs])
@@ -48,10 +48,16 @@ def measured_figure(comparison: SignalComparison, file: str) -> Figure:
     panels: list[Panel] = []
     for signal in comparison.signals[:_MOST_MEASURED]:
         keys = ("", "") if panels else (run.name, file)
-        panels.append(Panel("time [s]", f"{signal.channel} [{signal.unit}]", [
+        panels.append(Panel("time [s]", _label(signal.channel, signal.unit), [
             Curve(keys[0], 0, time[near], run[signal.channel][near]),
             Curve(keys[1], 1, signal.times + shift, signal.values, Mark.POINTS)]))
     return Figure(run.scenario.title, panels, [source_of(run.job)])
+
+
+def _label(channel: str, unit: str) -> str:
+    """`contact force of B1-B2 [N]`."""
+    owner, _, quantity = channel.rpartition(".")
+    return f"{quantity.replace('_', ' ')} of {owner} [{unit}]"
 
 
 def _contact_forces(run: Result) -> list[str]:
