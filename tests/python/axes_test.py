@@ -10,7 +10,7 @@ from contact.v1 import event_pb2, field_rules_pb2, job_pb2, scenario_pb2
 from contactsim.figures import FigureError
 from contactsim.figures.axes import AxisUnit, chosen_unit, named_unit, readable_unit, unit_of
 from contactsim.figures.figure import Curve, Mark
-from contactsim.figures.look import Look, parse_font, parse_size
+from contactsim.figures.look import PRINT, Look, parse_font, parse_size
 from contactsim.figures.scale import typeset
 from contactsim.figures.words import WORDS
 from contactsim.labels import axis_label, metric_label
@@ -62,6 +62,7 @@ class ReadableUnitTest(unittest.TestCase):
     def test_powers_and_indices_are_typeset(self):
         self.assertEqual(typeset("error [10^-6]"), "error [10⁻⁶]")
         self.assertEqual(typeset("μ [N·s/m^(n+1)]"), "μ [N·s/mⁿ⁺¹]")
+        self.assertEqual(typeset("μ [N·s/m^(5/2)]"), "μ [N·s/m⁵ᐟ²]")
         self.assertEqual(typeset("k [N/m^1.5]"), "k [N/m¹·⁵]")
         self.assertEqual(typeset("|W_r/W_c + ε²|"),
                          r"|W$_\mathrm{r}$/W$_\mathrm{c}$ + ε²|")
@@ -96,11 +97,23 @@ class LookTest(unittest.TestCase):
         self.assertEqual(len(styles), many)
 
     def test_paper_has_no_colours_and_tells_ten_curves_apart(self):
-        styles = self.lines(Look(paper=True), 10)
+        styles = self.lines(Look(style="paper"), 10)
         self.assertEqual(len({str(sorted(style.items())) for style in styles}), 10)
         self.assertLessEqual({style["color"] for style in styles}, set(WORDS["paper_inks"]))
-        beside = Look(paper=True).line(Curve("", 1, None, None, Mark.DASHED))
+        beside = Look(style="paper").line(Curve("", 1, None, None, Mark.DASHED))
         self.assertNotIn(beside, styles)
+        two = [Look(style="paper").line(Curve("", colour, None, None, Mark.DASHED)) for colour in (0, 1)]
+        self.assertNotEqual(*two)
+
+    def test_figures_for_a_publisher_have_its_column_and_letters(self):
+        for style, width, points in (("springer", 84, 8), ("elsevier", 90, 7), ("ieee", 88.9, 8),
+                                     ("aps", 86, 8)):
+            look = Look(style=style)
+            self.assertAlmostEqual(look.inches(1)[0] * 25.4, width)
+            self.assertEqual(look.rc["font.size"], points)
+            self.assertTrue(look.paper)
+        self.assertEqual(set(PRINT), {"paper", "springer", "elsevier", "ieee", "aps"})
+        self.assertEqual(Look(style="ieee", family="Courier").rc["font.family"][0], "Courier")
 
 
 class LabelsTest(unittest.TestCase):

@@ -136,7 +136,7 @@ class CoarseTest(unittest.TestCase):
 
     def test_stamp_ranges_and_cuts_are_drawn_in_every_look(self):
         run = bouncing(0.1, 300, cut=True)
-        for look in Look(), Look(paper=True), Look(provenance=False, title=False):
+        for look in Look(), Look(style="paper"), Look(provenance=False, title=False):
             for preset in "velocity", "force", "hysteresis", "force-map", "force-waterfall":
                 figure = preset_figure(preset, run)
                 keep_largest(figure)

@@ -15,7 +15,7 @@ from contactsim.figures.figure import FigureError, keep_largest
 from contactsim.figures.look import Look
 from matplotlib.colors import to_rgb
 from PIL import Image
-from sample_run import sample_run, stored_run
+from sample_run import row_run, sample_run, stored_run
 
 STARTS = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF", "eps": b"%!PS", "pgf": b"% title: "}
 NASTY = r"it's \input{pwned} 100% {a}_b ^~#&$ $x$ μ |x|<y>"
@@ -49,9 +49,18 @@ class DrawingTest(unittest.TestCase):
         green = np.array([to_rgb(line.get_color())[1] for line in ax.lines])
         self.assertTrue((np.diff(green) > 0).all())  # Of viridis it grows.
         self.assertGreater(green[0], small[-1][1])
-        self.assertEqual(ax.get_xlim()[1], drawn(figure, Look(paper=True)).axes[0].get_xlim()[1])
-        self.assertEqual(len(drawn(figure, Look(paper=True)).axes[0].collections), 0)
+        self.assertEqual(ax.get_xlim()[1], drawn(figure, Look(style="paper")).axes[0].get_xlim()[1])
+        self.assertEqual(len(drawn(figure, Look(style="paper")).axes[0].collections), 0)
         self.assertIn("20 smaller", [text.get_text() for text in ax.get_legend().get_texts()])
+
+    def test_keys_and_labels_leave_room_in_a_column(self):
+        figure = preset_figure("force", row_run(5))
+        self.assertEqual(len(figure.panels[0].labels), 5)
+        for style, labels, entries in (("colour", 5, 10), ("springer", 0, 6)):
+            ax = drawn(figure, Look(style=style)).axes[0]
+            words = [text.get_text() for text in ax.get_legend().get_texts()]
+            self.assertEqual(sum(word != "in contact" for word in words), entries, words)
+            self.assertEqual(sum("μ/k" in text.get_text() for text in ax.texts), labels)
 
     def test_every_preset_is_drawn_for_latex_and_in_eighty_characters(self):
         newer = {"acceleration", "energy", "supports"}  # Than the server that made the stored run.
@@ -111,7 +120,7 @@ class DrawingTest(unittest.TestCase):
             self.assertEqual(seen in texts, there, seen)
         self.assertIn("Courier", asked)
         self.assertIn(f"job: {self.run_.name}", asked)  # In its description.
-        paper = self.draw("svg", look=Look(paper=True)).decode()
+        paper = self.draw("svg", look=Look(style="paper")).decode()
         for colour in re.findall(r"stroke: #(\w\w)(\w\w)(\w\w)", paper):
             self.assertEqual(len(set(colour)), 1, colour)
 

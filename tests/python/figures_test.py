@@ -6,8 +6,11 @@ import unittest
 import numpy as np
 from contact.v1 import event_pb2, job_pb2, scenario_pb2
 from contactsim.figures import (PRESETS, Curve, Figure, FigureError, Mark, Panel, channels_figure,
-                                preset_figure)
+                                preset_figure, presets_figure)
+from contactsim.figures.characters import text
+from contactsim.figures.draw import drawn
 from contactsim.figures.figure import keep_largest, number_text, points_csv, thin
+from contactsim.figures.look import Look
 from contactsim.figures.overlay import overlay_figure
 from contactsim.figures.shown import Part
 from sample_run import run_of, sample_run
@@ -184,6 +187,29 @@ class PresetsTest(unittest.TestCase):
         panel = panel_of("iterations", run)
         self.assertEqual((panel.x_label, panel.curves[0].label), ("pass of episode 2", "W #1"))
 
+    def test_damping_factors_have_the_unit_of_their_exponent(self):
+        def unit():
+            return preset_figure("iterations", self.run_).panels[0].y_label
+        self.assertEqual(unit(), "μ [N·s/m^(5/2)]")
+        first, second = self.run_.job.scenario.contacts
+        first.exponent = second.exponent = 1
+        self.assertEqual(unit(), "μ [N·s/m^(2)]")
+        first.damping = second.damping = scenario_pb2.Contact.KELVIN_VOIGT
+        self.assertEqual(unit(), "μ [N·s/m]")
+        second.damping = scenario_pb2.Contact.EXACT
+        self.assertEqual(unit(), "μ [N·s/m^(n+1)]")
+
+    def test_several_presets_are_panels_with_letters(self):
+        figure = presets_figure(["force", "iterations"], self.run_)
+        self.assertEqual([(panel.letter, panel.y_label.split(" [")[0]) for panel in figure.panels],
+                         [("(a)", "force"), ("(b)", "μ"), ("(c)", "|W_r/W_c + ε²|")])
+        self.assertEqual(figure.note, "o start, × end of a contact cycle")
+        page = drawn(figure, Look(style="springer"))
+        letters = [text.get_text() for ax in page.axes for text in ax.texts]
+        self.assertLessEqual({"(a)", "(b)", "(c)"}, set(letters))
+        self.assertIn("+- (a) force", text(figure, 80))
+        self.assertEqual(presets_figure(["force"], self.run_).panels[0].letter, "")
+
     def test_channels_have_a_panel_for_each_quantity(self):
         figure = channels_figure(["A.velocity", "W.contact_force", "B.velocity"], self.run_)
         self.assertEqual([panel.y_label for panel in figure.panels],
@@ -292,6 +318,7 @@ class OverlayTest(unittest.TestCase):
         figure = overlay_figure([first, other])
         self.assertTrue(figure.title.endswith(": contacts[0].restitution"))
         self.assertEqual([curve.label for curve in figure.panels[0].curves], ["0.8", "0.7"])
+        self.assertEqual(figure.panels[0].y_label, "contact force of A-B [N]")
         self.assertEqual([curve.label for curve in figure.panels[1].curves], ["", ""])
 
     def test_runs_that_differ_in_more_are_named_by_their_job_too(self):

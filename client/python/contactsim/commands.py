@@ -15,11 +15,11 @@ import numpy as np
 from .client import Client
 from .errors import (ContactError, InvalidScenario, JobNotFound, NotAllowed, Overloaded, Timeout,
                      Unreachable)
-from .figures import PRESETS, Figure, FigureError, channels_figure, preset_figure
+from .figures import PRESETS, Figure, FigureError, channels_figure, presets_figure
 from .figures.axes import require_units
 from .figures.coarse import FEW_SAMPLES, coarse_cycles
 from .figures.figure import Curve, Kind, Panel, points_csv
-from .figures.look import Look, parse_font, parse_size
+from .figures.look import PRINT, Look, parse_font, parse_size
 from .figures.overlay import measured_figure, overlay_figure
 from .figures.shown import Part
 from .figures.sources import printable
@@ -71,7 +71,7 @@ def _parser() -> argparse.ArgumentParser:
 
     plot = add("plot", _plot, "draw a job that has ended")
     plot.add_argument("job")
-    plot.add_argument("preset", nargs="?", default="", help=", ".join(PRESETS))
+    plot.add_argument("presets", nargs="*", metavar="preset", help=", ".join(PRESETS))
     plot.add_argument("--channels", action="append", default=[])
     plot.add_argument("--contacts", action="append", default=[])
     plot.add_argument("--from", type=float, default=-math.inf, dest="start")
@@ -124,7 +124,7 @@ def _add_file(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_look(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--style", choices=("colour", "paper"), default="colour")
+    parser.add_argument("--style", choices=("colour", *PRINT), default="colour")
     parser.add_argument("--size")
     parser.add_argument("--font")
     parser.add_argument("--unit", action="append", default=[])
@@ -135,7 +135,7 @@ def _add_look(parser: argparse.ArgumentParser) -> None:
 def _look_of(arguments: argparse.Namespace) -> Look:
     family, points = parse_font(arguments.font) if arguments.font is not None else ("", 0.0)
     return Look(size=parse_size(arguments.size) if arguments.size is not None else None,
-                family=family, points=points, paper=arguments.style == "paper",
+                family=family, points=points, style=arguments.style,
                 title=not arguments.no_title, provenance=not arguments.no_provenance,
                 units=arguments.unit)
 
@@ -158,12 +158,12 @@ def _write(figure: Figure, arguments: argparse.Namespace, look: Look = Look()) -
 
 def _plot(arguments: argparse.Namespace) -> int:
     look = _look_of(arguments)
-    if bool(arguments.preset) == bool(arguments.channels):
-        raise FigureError("say what to draw: either a preset, or --channels")
+    if bool(arguments.presets) == bool(arguments.channels):
+        raise FigureError("say what to draw: either presets, or --channels")
     part = Part(arguments.contacts, arguments.start, arguments.end)
     with _client(arguments) as client:
         result = client.result(arguments.job, failed=True)
-    figure = (preset_figure(arguments.preset, result, part) if arguments.preset else
+    figure = (presets_figure(arguments.presets, result, part) if arguments.presets else
               channels_figure(arguments.channels, result, part))
     require_units(figure.panels, look.units)
     if arguments.log:
@@ -202,7 +202,7 @@ def _keep(figure: Figure, arguments: argparse.Namespace) -> None:
     """The data as CSV, and a script that draws them with matplotlib, to begin with."""
     from .figures.script import script
 
-    name = arguments.preset or "channels"
+    name = "-".join(arguments.presets) or "channels"
     arguments.keep.mkdir(parents=True, exist_ok=True)
     (arguments.keep / f"{name}.csv").write_text(points_csv(figure), "utf-8")
     (arguments.keep / f"{name}.py").write_text(script(figure, name), "utf-8")

@@ -95,9 +95,11 @@ def _panel(panel: Panel, columns: int, rows: int, look: Look, crowd: int) -> lis
     canvas = np.full((height, width), " ")
     for each in panel.ranges + spread(panel):
         _shade(canvas, x.place(np.stack([each.start, each.end])), y.place(np.stack([each.low, each.high])))
-    for curve in sorted((part for curve in curves for part in parted(curve)), key=lambda curve: curve.is_mark):
+    parts = [part for curve in curves for part in parted(curve)]
+    for curve in sorted(parts, key=lambda curve: curve.is_mark):
         _draw(canvas, x.place(curve.x), y.place(curve.y), curve)
-    top = f"+- {y.unit.label} ".ljust(width + 1, "-") + "+"
+    letter = f"{panel.letter} " if panel.letter else ""
+    top = f"+- {letter}{y.unit.label} ".ljust(width + 1, "-") + "+"
     ticks = {height - 1 - cell: number for cell, number in y.ticks().items()}
     ranged = bool(panel.ranges or spread(panel))
     lines = _key(curves, columns, crowd, ranged) + [" " * _MARGIN + top[:width + 2]]

@@ -27,8 +27,9 @@ from .words import WORDS
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_MOST_KEYS = 10  # Above it, dashed curves have one entry together.
-_MOST_LEVEL_LABELS = 4  # More are upright.
+_MOST_KEYS = 10  # Above it, or above _FEW_KEYS in a column of a journal, dashed curves have one entry together.
+_FEW_KEYS = 4
+_MOST_LEVEL_LABELS = 4  # More are upright, or left out of a column, whose panels are too low for them.
 _GREY = "#666666"
 
 
@@ -50,10 +51,15 @@ def drawn(figure: Figure, look: Look = Look()) -> matplotlib.figure.Figure:
 
 def draw_panel(panel: Panel, ax: Axes, look: Look = Look(), key: Key | None = None) -> None:
     """Draws a panel on axes, with its key above them."""
+    if panel.letter:
+        ax.text(0.012, 0.97, panel.letter, transform=ax.transAxes, va="top", fontweight="bold", zorder=6,
+                bbox={"facecolor": "white", "alpha": 0.8, "linewidth": 0, "pad": 1.5})
     if panel.kind is not Kind.LINES:
         draw_rows(panel, ax, look)
         draw_stamp(panel, ax)
         return
+    if look.paper and len(panel.labels) > _MOST_LEVEL_LABELS:
+        panel = dataclasses.replace(panel, labels=[])
     _draw_bands(panel, ax)
     for curve in _merged(part for curve in panel.curves if not _is_shaded(curve, look)
                          for part in parted(curve)):
@@ -97,7 +103,7 @@ class Key:
         self._look = look
         named = [curve for curve in panel.curves
                  if curve.keyed and curve.label and panel.kind is Kind.LINES]
-        full = len(named) > _MOST_KEYS
+        full = len(named) > (_FEW_KEYS if look.paper else _MOST_KEYS)
         listed = [curve for curve in named if not (full and curve.mark is Mark.DASHED)]
         self._entries: list[tuple[Any, str]] = [
             (Line2D([], [], **look.line(curve)), curve.label) for curve in listed]
@@ -106,7 +112,7 @@ class Key:
             grey = dataclasses.replace(faint, shade=None)
             self._entries.append((Line2D([], [], **look.line(grey)), f"{crowd} smaller"))
         if full and panel.dashed:
-            black = Curve("", len(WORDS["palette"]) - 1, np.empty(0), np.empty(0), Mark.DASHED)
+            black = Curve("", 0 if look.paper else len(WORDS["palette"]) - 1, np.empty(0), np.empty(0), Mark.DASHED)
             self._entries.append((Line2D([], [], **look.line(black)), panel.dashed))
         if panel.bands and panel.band_label and not look.paper:
             self._entries.append((Patch(facecolor=WORDS["band"]), panel.band_label))

@@ -113,6 +113,7 @@ class Panel:
     cut: list[tuple[float, float]] = dataclasses.field(default_factory=list)  #: Hatched over x:
     #: what the end of the run cuts.
     ranges: list[Range] = dataclasses.field(default_factory=list)
+    letter: str = ""  #: Such as (a), of one of several.
     stamp: str = ""  #: What the samples are too few for.
     labels: list[Label] = dataclasses.field(default_factory=list)
     dotted: list[float] = dataclasses.field(default_factory=list)  #: Values of y of dotted lines.

@@ -12,10 +12,17 @@ from .words import WORDS
 BY_PLACE = "viridis"  #: Colours of rows by their place, from 0 to 0.9: the rest is too light.
 _INCHES = {None: 1.0, "in": 1.0, "cm": 1 / 2.54, "mm": 1 / 25.4}
 _WIDTH = 8.0
-_COLUMN = 3.4  # Of a journal with two columns, whose figures are
-_STEEPER = 1.2  # higher for their width, so that there is space for texts.
+_STEEPER = 1.2  # Figures a column wide are higher for their width, so that there is space for texts.
 _POINTS = 9.0
-_PAPER_POINTS = 8.0
+_SERIF = ("Times New Roman", "Nimbus Roman", "Liberation Serif", "DejaVu Serif")
+_SANS = ("Arial", "Liberation Sans", "Nimbus Sans", "DejaVu Sans")
+
+#: Of a style for print: the width of a column in inches, its fonts, the first one that is there, and
+#: their size. Those of publishers are what these ask of figures: columns of 84 mm (Springer), 90 mm
+#: (Elsevier), 3.5 in (IEEE) and 8.6 cm (APS), and letters of 7 or 8 points.
+PRINT: dict[str, tuple[float, tuple[str, ...], float]] = {
+    "paper": (3.4, _SERIF, 8.0), "springer": (84 / 25.4, _SANS, 8.0),
+    "elsevier": (90 / 25.4, _SANS, 7.0), "ieee": (3.5, _SERIF, 8.0), "aps": (8.6 / 2.54, _SERIF, 8.0)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,18 +32,23 @@ class Look:
     size: tuple[float, float] | None = None  #: Width and height in inches.
     family: str = ""  #: Of the font of all texts; empty: that of the style.
     points: float = 0.0  #: Size of the font in 1/72 in; 0: that of the style.
-    paper: bool = False  #: For print: black curves that dashes tell apart, a column wide.
+    style: str = "colour"  #: Or one of PRINT: black curves that dashes tell apart, a column wide.
     title: bool = True
     provenance: bool = True  #: The line that says where the figure comes from.
     units: Sequence[str] = ()  #: Units that the axes are to have; others read best.
 
     @property
+    def paper(self) -> bool:
+        """True for print."""
+        return self.style in PRINT
+
+    @property
     def rc(self) -> dict[str, Any]:
         """The settings of matplotlib."""
-        points = self.points or (_PAPER_POINTS if self.paper else _POINTS)
-        family = self.family or ("Times New Roman" if self.paper else "DejaVu Sans")
-        fallback = ["Nimbus Roman", "Liberation Serif", "DejaVu Serif"] if self.paper else []
-        return {"font.size": points, "font.family": [family, *fallback, "DejaVu Sans"],
+        _, fonts, usual = PRINT.get(self.style, (_WIDTH, (), _POINTS))
+        points = self.points or usual
+        families = [self.family, *fonts] if self.family else [*fonts]
+        return {"font.size": points, "font.family": [*families, "DejaVu Sans"],
                 "axes.titlesize": points, "figure.titlesize": 1.2 * points,
                 "axes.grid": not self.paper, "grid.color": "#dddddd", "grid.linewidth": 0.6,
                 "axes.linewidth": 0.6 if self.paper else 0.8, "axes.axisbelow": True,
@@ -51,8 +63,9 @@ class Look:
         """The size of a figure with so many panels."""
         if self.size:
             return self.size
-        height = 7.0 if panels > 1 else 5.0
-        return (_COLUMN, height * _COLUMN / _WIDTH * _STEEPER) if self.paper else (_WIDTH, height)
+        height = 3.5 * panels if panels > 1 else 5.0
+        width = PRINT[self.style][0] if self.paper else _WIDTH
+        return (width, height * width / _WIDTH * _STEEPER) if self.paper else (width, height)
 
     def line(self, curve: Curve) -> dict[str, Any]:
         """Colour, dashes and marker of a curve, for Axes.plot."""
@@ -71,7 +84,9 @@ class Look:
         if curve.mark is Mark.LINE_POINTS:
             style |= {"marker": "o", "fillstyle": "none"}
         if curve.mark is Mark.DASHED:
-            return style | {"dashes": (4, 2), "linewidth": 0.8}
+            beside = WORDS["paper_dashes"][1:]  # Without colours each has its own.
+            own = beside[curve.colour % len(beside)] if self.paper else (4, 2)
+            return style | {"dashes": own, "linewidth": 0.8}
         if curve.mark is Mark.DOTTED:
             return style | {"dashes": (1, 1.5)}
         return style | ({"dashes": dashes} if dashes else {})

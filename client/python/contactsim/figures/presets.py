@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING, Callable, Sequence
 
 import numpy as np
@@ -94,6 +95,13 @@ def _known(label: str, colour: int, x: Array, y: Array, mark: Mark,
     return Curve(label, colour, x[known], y[known], mark, keyed)
 
 
+def _mu_unit(run: Shown) -> str:
+    """That of μ in μ δⁿ δ̇, if all contacts shown have the same n: N·s/m^(5/2) of n = 3/2."""
+    powers = {Fraction(law.damping_exponent + 1).limit_denominator(100) for _, law in run.contacts}
+    power = str(powers.pop()) if len(powers) == 1 else "n+1"
+    return "N·s/m" + (f"^({power})" if power != "1" else "")
+
+
 def _iterations(run: Shown) -> list[Panel]:
     """μ and |f| over the passes of the episode that took the most passes, a curve for each cycle."""
     shown = {law.name for _, law in run.contacts}
@@ -111,7 +119,7 @@ def _iterations(run: Shown) -> list[Panel]:
                     (one.number, u.mu, max(abs(u.residual), _LEAST)))
     only = all(one.episode == episode for one, _ in passes)
     x_label = "pass" if only else f"pass of episode {episode}"
-    panels = [Panel(x_label, "μ [N·s/m^(n+1)]", counted_x=True),
+    panels = [Panel(x_label, f"μ [{_mu_unit(run)}]", counted_x=True),
               Panel(x_label, "|W_r/W_c + ε²| [1]", counted_x=True, log_y=True)]
     for colour, (label, rows) in enumerate(points.items()):
         number, mu, residual = np.array(rows).T
@@ -205,6 +213,17 @@ def preset_figure(preset: str, result: Result, part: Part = Part()) -> Figure:
         raise FigureError(f"there is no preset {preset!r}" + expected(preset, PRESETS))
     make, note = PRESETS[preset]
     return _of_run(result, make(Shown(result, part)), note)
+
+
+def presets_figure(presets: Sequence[str], result: Result, part: Part = Part()) -> Figure:
+    """The panels of several presets below each other, with letters, as a figure of a paper has them."""
+    figures = [preset_figure(preset, result, part) for preset in presets]
+    panels = [panel for figure in figures for panel in figure.panels]
+    if len(figures) > 1:
+        for place, panel in enumerate(panels):
+            panel.letter = f"({chr(ord('a') + place)})"
+    notes = dict.fromkeys(figure.note for figure in figures if figure.note)
+    return Figure(figures[0].title, panels, figures[0].sources, "; ".join(notes))
 
 
 def channels_figure(channels: Sequence[str], result: Result, part: Part = Part()) -> Figure:
