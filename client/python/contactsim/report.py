@@ -6,8 +6,9 @@ import json
 import math
 from typing import Any, Sequence
 
+import yaml
 from contact.v1 import event_pb2, job_pb2
-from google.protobuf.json_format import MessageToJson
+from google.protobuf.json_format import MessageToDict
 
 from .comparing import Comparison, compare
 from .figures import PRESETS, Figure, FigureError, preset_figure
@@ -28,9 +29,9 @@ def report_page(runs: Sequence[Result], server: str, draw: bool = True) -> str:
     """The page of runs, the first of which is the baseline; without figures if not `draw`."""
     title = (f"Report of {len(runs)} runs" if len(runs) > 1 else
              runs[0].scenario.title or runs[0].name)
-    body = _contents(runs) + "".join(_section(run, place, server, draw)
-                                     for place, run in enumerate(runs))
-    return page(title, body + (_differences(runs, draw) if len(runs) > 1 else ""))
+    differences = _differences(runs, draw) if len(runs) > 1 else ""
+    sections = "".join(_section(run, place, server, draw) for place, run in enumerate(runs))
+    return page(title, _contents(runs) + differences + sections)
 
 
 def _contents(runs: Sequence[Result]) -> str:
@@ -176,10 +177,11 @@ def _repeat(run: Result, server: str) -> str:
             "solver": json.dumps(solver_in_full(run.scenario)),
             "convergence": job_pb2.Job.Convergence.Name(job.convergence)}
     how = (f"# while {server} has {run.name}:\ncontactctl --server {server} run --like {run.name}\n"
-           "# anywhere: save the scenario below as scenario.json, then\n"
-           "contactctl run scenario.json\n\n")
+           "# anywhere: save the scenario below as scenario.yaml, then\n"
+           "contactctl run scenario.yaml\n\n")
     lines = "".join(f"{name}: {value}\n" for name, value in told.items())
-    scenario = MessageToJson(run.scenario, preserving_proto_field_name=True, ensure_ascii=False)
+    scenario = yaml.safe_dump(MessageToDict(run.scenario, preserving_proto_field_name=True),
+                              sort_keys=False, allow_unicode=True)
     return (f"<pre>{escape(how + lines)}</pre>\n<h3>Scenario</h3>\n"
             f"<pre>{escape(scenario)}</pre>\n")
 
