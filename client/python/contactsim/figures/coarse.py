@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Callable, Iterable
+from typing import TYPE_CHECKING, Any, Callable, Iterable
 
 import numpy as np
 from contact.v1 import job_pb2
@@ -119,7 +119,7 @@ def spread(panel: Panel) -> list[Range]:
             for colour, start, stop, y in spans]
 
 
-def _loose_points(curve: Curve) -> list[Array]:
+def _loose_points(curve: Curve) -> list[np.ndarray[Any, np.dtype[np.bool_]]]:
     return [(curve.x >= start) & (curve.x <= end) for start, end in curve.loose]
 
 
