@@ -83,6 +83,34 @@ test('chosen runs are labelled together, and keep their other labels', async () 
   assert.deepEqual(kept.map((job) => job.labels), [{own: 'a', study: 'first'}, {own: 'b', study: 'first'}]);
 });
 
+test('chosen runs that go on are cancelled together, when that is said twice', async () => {
+  const ids = await Promise.all([1, 2].map(() => server.submit(LONG, {labels: {trial: 'stop'}})));
+  await open('/runs?label=trial%3Dstop');
+  for (const id of ids) await page.getByLabel(`choose ${id}`).check();
+  await page.getByRole('button', {name: 'Cancel 2 runs …'}).click();
+  await page.getByRole('button', {name: 'Cancel them for good'}).click();
+  assert.deepEqual(await Promise.all(ids.map(async (id) => (await server.ended(id)).state)), ['CANCELLED', 'CANCELLED']);
+});
+
+test('runs are grouped by a label, which stands in the address, and are saved as CSV', async () => {
+  for (const law of ['exact', 'flores', 'exact', undefined]) await server.submit({...BALL, title: 'Grouped, "so"'}, {labels: law ? {law} : {}});
+  await open('/runs?q=grouped');
+  await page.getByText('page 1 of 1, 4 runs').waitFor();
+  await page.getByLabel(/^Group/).selectOption('by label law');
+  const heads = page.locator('.runs th[scope=rowgroup]');
+  await hold(async () => (await heads.allInnerTexts()).join('; ') === 'law –, 1; law exact, 2; law flores, 1');
+  assert.equal(ofAddress('group'), 'label:law');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', {name: 'List as CSV'}).click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  const rows = Buffer.concat(chunks).toString().split('\n');
+  assert.match(rows[0], /^job,title,state,convergence,labels,note,/);
+  assert.equal(rows.length, 6);
+  assert.match(rows[2], /^jobs\/\w+,"Grouped, ""so""",\w+,\w+,law=exact,,/);
+  await page.getByLabel(/^Group/).selectOption('by title');
+  await hold(async () => (await heads.allInnerTexts()).join() === 'Grouped, "so", 4');
+});
+
 test('a note is written on the page of a run, stays while it is not stored, and stands in the list', async () => {
   const id = await server.submit({...BALL, title: 'Noted'});
   await open(`/runs/${id}`);

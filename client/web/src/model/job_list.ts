@@ -90,6 +90,19 @@ export function chosenOf(jobs: Job[], {words, state, after, before}: Choice): Jo
   });
 }
 
+/** The label keys of jobs, by which they are grouped. */
+export const labelKeys = (jobs: Job[]): string[] => [...new Set(jobs.flatMap(({labels}) => Object.keys(labels)))].sort();
+
+/** What a job has in common with the others of its group: its title, or a label, as in `label:law`. */
+export function groupOf({title, labels}: Job, by: string): string {
+  const key = by.replace('label:', '');
+  return by === 'title' ? title || 'no title' : `${key} ${labels[key] ?? '–'}`;
+}
+
+/** Jobs of a group beside each other, in the order of groups' names. */
+export const grouped = (jobs: Job[], by: string): Job[] =>
+  (by ? [...jobs].sort((a, b) => groupOf(a, by).localeCompare(groupOf(b, by), undefined, {numeric: true})) : jobs);
+
 /** The states that a choice stands for. */
 export function statesOf(choice: string): Job_State[] {
   if (choice === NOT_CONVERGED) return [Job_State.SUCCEEDED];

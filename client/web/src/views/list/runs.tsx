@@ -6,10 +6,11 @@ import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
 import {Job_Convergence, type Job} from '../../api/generated/contact/v1/job_pb';
 import type {Link} from '../../api/stream';
 import {watchJobs} from '../../api/watch';
-import {bestOf, chosenOf, JobList, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
+import {bestOf, chosenOf, grouped, groupOf, JobList, labelKeys, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
 import type {Fields} from '../../model/job_fields';
 import {count, exact} from '../../model/numbers';
 import {noteHint} from '../../model/remarks';
+import {save} from '../../ui/save';
 import {LinkNote} from '../../ui/link_note';
 import {setQuery, type Route} from '../../ui/route';
 import {StateBadge} from '../../ui/state_badge';
@@ -63,7 +64,7 @@ function Row({job, metric, best, chosen, choose, values}: {
   );
 }
 
-function Filters({query, children}: {query: URLSearchParams; children: ComponentChildren}) {
+function Filters({query, keys, children}: {query: URLSearchParams; keys: string[]; children: ComponentChildren}) {
   const change = (key: string) => (e: Event) =>
     setQuery({[key]: (e.currentTarget as HTMLInputElement).value, page: undefined});
   const time = (key: string) => (
@@ -83,6 +84,9 @@ function Filters({query, children}: {query: URLSearchParams; children: Component
       </select></label>
       <label>Order <select value={query.get('sort') ?? ''} onChange={change('sort')}>
         <option value="">newest first</option><option value="metric">by metric</option><option value="title">by title</option>
+      </select></label>
+      <label>Group <select value={query.get('group') ?? ''} onChange={change('group')}>
+        <option value="">none</option><option value="title">by title</option>{keys.map((key) => <option key={key} value={`label:${key}`}>by label {key}</option>)}
       </select></label>
       {children}
     </div>
@@ -125,8 +129,9 @@ export function Runs({route: {query}}: {route: Route}) {
   const chosen = (query.get('chosen') ?? '').split(',').filter(Boolean);
   const table = useRef<HTMLTableElement>(null);
   const metric = METRICS.find(({id}) => id === query.get('metric')) ?? METRICS[0]!;
-  const found = useMemo(() => ordered(chosenOf(jobs, {words, state, after, before}), query.get('sort'), metric.of),
-    [jobs, words, state, after, before, metric, query.get('sort')]);
+  const by = query.get('group') ?? '';
+  const found = useMemo(() => grouped(ordered(chosenOf(jobs, {words, state, after, before}), query.get('sort'), metric.of), by),
+    [jobs, words, state, after, before, metric, query.get('sort'), by]);
   const best = useMemo(() => bestOf(found, metric), [found, metric]);
   const pages = Math.max(1, Math.ceil(found.length / PAGE));
   const page = Math.min(Math.max(Number(query.get('page') ?? 1) - 1, 0), pages - 1);
@@ -135,6 +140,12 @@ export function Runs({route: {query}}: {route: Route}) {
   const [looked, setLooked] = useState(false);
   const fields = useFields(rows.map(({name}) => name), looked || columns.length > 0);
   const known = rows.flatMap(({name}) => fields.get(name) ?? []);
+  const head = (job: Job, before: Job | undefined) => by && (!before || groupOf(before, by) !== groupOf(job, by))
+    && <tr key={`group ${job.name}`}><th colSpan={8 + columns.length} scope="rowgroup">{groupOf(job, by)}, {count(found.filter((other) => groupOf(other, by) === groupOf(job, by)).length)}</th></tr>;
+  const saveCsv = async () => {
+    const {listCsv} = await import('../../model/job_fields');
+    save('runs.csv', new Blob([listCsv(found, metric, columns, fields)], {type: 'text/csv'}));
+  };
   const choose = (id: string, on: boolean) => setQuery({chosen: [...chosen.filter((other) => other !== id), ...(on ? [id] : [])].join(',')});
   return (
     <>
@@ -145,15 +156,16 @@ export function Runs({route: {query}}: {route: Route}) {
         {chosen.length > 0 && <Bulk jobs={jobs.filter((job) => chosen.includes(idOf(job)))} gone={(those) => setQuery({chosen: chosen.filter((id) => !those.some((job) => idOf(job) === id)).join(',')})} />}
       </div>
       <LinkNote link={link} />
-      <Filters query={query}><AddColumn fields={known} shown={columns} onLook={() => setLooked(true)} /></Filters>
+      <Filters query={query} keys={labelKeys(jobs)}><AddColumn fields={known} shown={columns} onLook={() => setLooked(true)} />
+        <button type="button" onClick={() => void saveCsv()}>List as CSV</button></Filters>
       <div class="scroll" tabIndex={0} role="region" aria-label="Runs">
         <table ref={table} class="runs">
           <thead><tr><th><span class="hidden">choose</span></th><th>Title</th><th>Name</th><th>State</th><th>Labels</th>
             {columns.map((name) => <th key={name} class="number mono">{name} <button type="button" class="quiet" aria-label={`remove column ${name}`} onClick={() => setQuery({fields: columns.filter((other) => other !== name).join(',')})}>✕</button></th>)}
             <th class="number">{metric.label}</th><th class="number">took</th><th class="number">created</th></tr></thead>
-          <tbody>{rows.map((job) => (
+          <tbody>{rows.flatMap((job, i) => [head(job, rows[i - 1]), (
             <Row key={job.name} job={job} values={columns.map((name) => fields.get(job.name)?.get(name))} metric={metric.of(job)} best={best !== undefined && metric.of(job) === best && job.convergence === Job_Convergence.FULL}
-              chosen={chosen.includes(idOf(job))} choose={(on) => choose(idOf(job), on)} />))}
+              chosen={chosen.includes(idOf(job))} choose={(on) => choose(idOf(job), on)} />)])}
           </tbody>
         </table>
       </div>
