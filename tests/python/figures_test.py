@@ -217,6 +217,8 @@ class PresetsTest(unittest.TestCase):
         self.assertEqual([len(panel.curves) for panel in figure.panels], [2, 1])
         with self.assertRaisesRegex(FigureError, "did you mean 'A.velocity'"):
             channels_figure(["A.velocty"], self.run_)
+        with self.assertRaisesRegex(FigureError, "there are A.position, A.velocity, A.acceleration$"):
+            channels_figure(["A.speed"], self.run_)
 
 
 class PartTest(unittest.TestCase):
@@ -292,6 +294,17 @@ class ManyCurvesTest(unittest.TestCase):
         self.assertLessEqual(len(curve.x), 40)
         self.assertEqual((curve.x[0], curve.x[-1], curve.y.max(), curve.y.min()), (0, 999, 5, -5))
         self.assertTrue((np.diff(curve.x) > 0).all())
+
+
+    def test_thinned_loops_keep_their_area(self):
+        phase = np.linspace(0, 1, 5000)**4  # Most samples lie where it starts.
+        x = np.sin(np.pi * phase)
+        y = x**1.5 + 0.3 * np.sin(2 * np.pi * phase) * x
+        figure = Figure("", [Panel("deformation [m]", "contact force [N]", [Curve("c", 0, x, y)])])
+        thin(500, figure)
+        curve = figure.panels[0].curves[0]
+        self.assertLessEqual(len(curve.x), 500)
+        self.assertAlmostEqual(np.trapz(curve.y, curve.x) / np.trapz(y, x), 1, delta=0.01)
 
 
 class CsvTest(unittest.TestCase):

@@ -32,6 +32,10 @@ class OneSourceTest(unittest.TestCase):
         self.assertEqual(calls(Client), calls(AsyncClient))
         self.assertIn("sweep", calls(Client))
 
+    def test_they_tell_their_server(self):
+        with Client("there:7") as client:
+            self.assertEqual(repr(client), "<Client there:7>")
+
     def test_nothing_is_awaited_in_the_synchronous_one(self):
         text = inspect.getsource(Client)
         for word in ("async", "await"):

@@ -53,6 +53,9 @@ class AsyncClient:
         self._channel = open_channel(grpc.aio, self.address, self._files)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
+    def __repr__(self) -> str:
+        return f"<AsyncClient {self.address}>"
+
     async def close(self) -> None:
         """Ends the connection."""
         await self._channel.close()

@@ -53,6 +53,9 @@ class Client:
         self._channel = open_channel(grpc, self.address, self._files)
         self._stub = job_service_pb2_grpc.JobServiceStub(self._channel)
 
+    def __repr__(self) -> str:
+        return f"<Client {self.address}>"
+
     def close(self) -> None:
         """Ends the connection."""
         self._channel.close()

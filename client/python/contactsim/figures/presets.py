@@ -11,7 +11,7 @@ import numpy as np
 from contact.v1 import event_pb2, job_pb2
 
 from ..model import Array
-from ..spelling import expected, nearest
+from ..spelling import expected
 from .coarse import stamp
 from .contacts import contact_ranges, deformation_velocity, force, hysteresis
 from .figure import Curve, Figure, FigureError, Kind, Mark, Panel
@@ -233,8 +233,10 @@ def channels_figure(channels: Sequence[str], result: Result, part: Part = Part()
     panels: dict[str, Panel] = {}
     for colour, channel in enumerate(channels):
         if channel not in result.arrays:
+            owner = channel.rpartition(".")[0]
+            alike = [name for name in result.arrays if name.rpartition(".")[0] == owner]
             raise FigureError(f"'{channel}' is no channel of this job"
-                              + nearest(channel, result.arrays))
+                              + expected(channel, alike or result.arrays))
         quantity = channel.rpartition(".")[2].replace("_", " ")
         label = f"{quantity} [{result.units[channel]}]"
         panel = panels.setdefault(label, run.over_time(label))
