@@ -31,6 +31,19 @@ def listed(name):
     return [line for line in lines if not line.startswith("#")]
 
 
+class DependenciesTest(unittest.TestCase):
+
+    def test_drawing_is_no_dependency_of_the_command_line(self):
+        control = (ROOT / "deploy/debian/control").read_text("utf-8")
+        package = control.split("\nPackage: contactctl\n")[1].split("\nDescription:")[0]
+        self.assertNotIn("Recommends", package)
+        self.assertRegex(package, "Suggests: .*python3-contactsim, python3-matplotlib")
+        for name in ("packages", "docs-packages", "test-packages", "debian/control"):
+            self.assertNotIn("gnuplot", (ROOT / "deploy" / name).read_text("utf-8"), name)
+        install = r"apt install --no-install-recommends \./build/package/\*\.deb"
+        self.assertRegex((ROOT / "deploy/README.md").read_text("utf-8"), install)
+
+
 @unittest.skipIf(os.geteuid() != 0, "only root asks nobody for rights")
 class SetupTest(unittest.TestCase):
 

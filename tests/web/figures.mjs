@@ -206,7 +206,7 @@ async function largeMap() {
   return {busy: Math.max(0, ...busy), draws};
 }
 
-report('first load of the list, gzip', await loaded('/runs'), 120, 'kB');
+report('first load of the list, gzip', await loaded('/runs'), 70, 'kB');
 report('first load of a run, gzip', await loaded(`/runs/${await server.submit(CHAIN)}`), 200, 'kB', 'no limit of the issue');
 const paints = await firstPaints('/runs');
 report('first paint, median', quantile(paints, 0.5), 500, 'ms', `largest ${Math.max(...paints).toFixed(0)}`);
