@@ -49,7 +49,7 @@ class PlotFormsTest(CliTest):
                          self.run_it("plot", self.name, "force", "-o", "txt")[0])
         both = self.folder / "both.txt"
         self.run_it("compare", self.name, self.name, "--plot", both)
-        self.assertIn("B1-B2.contact_force [N]", both.read_text("utf-8"))
+        self.assertIn("contact force of B1-B2 [N]", both.read_text("utf-8"))
 
 
 if __name__ == "__main__":
