@@ -193,7 +193,7 @@ class PresetsTest(unittest.TestCase):
         self.assertEqual(unit(), "μ [N·s/m^(5/2)]")
         first, second = self.run_.job.scenario.contacts
         first.exponent = second.exponent = 1
-        self.assertEqual(unit(), "μ [N·s/m^(2)]")
+        self.assertEqual(unit(), "μ [N·s/m^2]")
         first.damping = second.damping = scenario_pb2.Contact.KELVIN_VOIGT
         self.assertEqual(unit(), "μ [N·s/m]")
         second.damping = scenario_pb2.Contact.EXACT

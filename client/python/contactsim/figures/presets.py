@@ -99,7 +99,7 @@ def _mu_unit(run: Shown) -> str:
     """That of μ in μ δⁿ δ̇, if all contacts shown have the same n: N·s/m^(5/2) of n = 3/2."""
     powers = {Fraction(law.damping_exponent + 1).limit_denominator(100) for _, law in run.contacts}
     power = str(powers.pop()) if len(powers) == 1 else "n+1"
-    return "N·s/m" + (f"^({power})" if power != "1" else "")
+    return "N·s/m" + ("" if power == "1" else f"^{power}" if power.isdigit() else f"^({power})")
 
 
 def _iterations(run: Shown) -> list[Panel]:
