@@ -21,6 +21,12 @@ constexpr int kMostGrows = 12;
 // A scan begins at this part of the first guess, goes on by this factor, so often at most.
 constexpr double kLowest = 1e-3, kFine = 1.25;
 constexpr int kMostScanned = 120;
+// A scan below a root, by this factor, from and to these parts of the root.
+constexpr double kCoarse = 3, kLeastPart = 1e-3, kBelow = 0.9;
+// What lasts at μ = 0 so much of what it lasts at its root ends alike. Of 3,800 groups of random
+// scenarios that begin at rest or compressed 86 have a smaller root, 77 of these last less or more;
+// so do 20 % of the rest.
+constexpr double kShortest = 0.6, kLongest = 1.5;
 // How often an interval of a scan is divided where a tangent leads to a root in it.
 constexpr int kDepth = 3;
 // After so many μ with which the group does not end there is none with which it does: 9 times more.
@@ -96,6 +102,7 @@ bool Bisection::Scan(const GroupSight& group) {
   until_ = kForever;
   error_ = kCoarseTolerance;
   sharply_ = true;
+  below_ = kForever;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
@@ -111,6 +118,37 @@ bool Bisection::Scan(const GroupSight& group) {
   return false;
 }
 
+bool Bisection::ScanBelow(const GroupSight& group, const Sight& sight) {
+  group_ = group;
+  near_ = kRoot;
+  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
+  error_ = kCoarseTolerance;
+  sharply_ = false;
+  below_ = kBelow * group.mu;
+  const Groups kept = problem_.groups;
+  std::erase_if(problem_.groups.known(), [&](const auto& known) {  // Of earlier passes only.
+    return known.second.start_time > group.start_time && sight.Find(known.first) == nullptr;
+  });
+  Point last = At(0);
+  bool found = false, goes_on = !Falls(last);
+  for (double part = kLeastPart; goes_on; part *= kCoarse) {
+    const Point point = At(std::min(part, kBelow) * group.mu, true);
+    goes_on = part < kBelow && !problem_.Aborted();
+    found = !IsRoot(point) && HasRoot(last, point, kDepth);
+    goes_on &= !found;
+    last = point;
+  }
+  if (!found) problem_.groups = kept;
+  return found;
+}
+
+// Whether ε(μ) seems to fall all the way from μ = 0 to the root: the group ends there at the same
+// trough or separation, for it lasts about as long.
+bool Bisection::Falls(const Point& undamped) const {
+  const double lasts = (undamped.end - group_.start_time) / (group_.end_time - group_.start_time);
+  return undamped.excess > 0 && lasts > kShortest && lasts < kLongest;
+}
+
 // Whether there is a root between two points of a scan. Where both are on the same side there may
 // be two, or one and a jump, if one of the tangents leads to the other side before the other point.
 bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
@@ -118,7 +156,7 @@ bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
     Keep(from), Keep(to);
     const bool found = Exactly(Narrow()) == Root::kFound;
     error_ = kCoarseTolerance;
-    return found;
+    return found && problem_.groups.At(group_.id).mu < below_;
   }
   if (depth == 0 || problem_.Aborted()) return false;
   for (const Point& end : {from, to}) {

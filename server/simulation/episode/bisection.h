@@ -26,6 +26,9 @@ class Bisection {
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
+  /// Whether the group, which its μ solves in this pass, has a smaller root. Sets its μ to the
+  /// smallest.
+  bool ScanBelow(const GroupSight& group, const Sight& sight);
 
  private:
   struct Point {
@@ -39,6 +42,7 @@ class Bisection {
   };
   Point At(double mu, bool slope = false);
   bool HasRoot(const Point& from, const Point& to, int depth);
+  bool Falls(const Point& undamped) const;
   Root Look();
   Root Exactly(Root root);
   bool IsRoot(const Point& point) const;
@@ -56,6 +60,7 @@ class Bisection {
   GroupSight group_;  // As first seen.
   double near_ = 0;   // The excess of a root.
   double until_ = 0;  // What has not ended then is open [s].
+  double below_ = 0;  // A scan is for smaller roots.
   double error_ = 0;  // Relative error of a pass; 0: as little as the scenario asks.
   bool sharply_ = true;
   Point more_, less_;  // Nearest μ with too much, too little.

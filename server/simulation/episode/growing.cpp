@@ -29,6 +29,10 @@ constexpr double kLonger = 1.01;
 // A change of what is around a group by less than this gives it no root that it had not. Scanned
 // again for every change, 2 more of 40 stacks of the machines spend a million steps.
 constexpr double kSame = 1e-3;
+// A collision lasts so many times δ_m/δ̇⁻ at most, 2.9 without damping, where nothing disturbs it.
+constexpr double kPlain = 4.5;
+// So many roots of a group are told, and left for smaller ones.
+constexpr std::size_t kMostRoots = 4;
 // A cycle that jumps alone has a μ so far, relative, beside its jump: on its very edge the least
 // change of a neighbour's μ makes it jump, so that the neighbour has no root either.
 // Episode.ACycleThatJumpsPastItsRestitutionIsInfeasibleAlone.
@@ -162,14 +166,36 @@ bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double 
   return sign * (ended ? seen->Miss() : -1) > 0;
 }
 
-// Whether a group has a root after all with what is now around it.
-bool Growing::HasRoot(const GroupSight& group, const Sight& scan) {
+// Whether a group was not scanned with what is now around it.
+bool Growing::IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned) {
   double sum = 0;
   for (const GroupSight& g : scan.groups) sum += g.start_time < group.end_time ? g.mu : 0;
-  const auto known = scanned_.try_emplace(group.id, kNaN).first;
+  const auto known = scanned->try_emplace(group.id, kNaN).first;
   if (!group.ended || std::abs(known->second - sum) <= kSame * sum) return false;
   known->second = sum;
-  return bisection_.Scan(group);
+  return true;
+}
+
+// Whether ε may not fall with the μ of a group all the way: a collision that nothing disturbs lasts
+// no longer than this one, and begins with δ = 0.
+bool Growing::MayHaveLess(const GroupSight& group) const {
+  const Unknown& unknown = problem_.groups.At(group.id);
+  const bool solved = group.sought && unknown.status == Cycle::Status::kConverged;
+  if (!solved || group.weak || unknown.other_roots.size() >= kMostRoots) return false;
+  const bool compressed = group.kind == Cycle::Kind::kNirv && group.id.place > 1;
+  return compressed || (group.end_time - group.start_time) * group.speed > kPlain * group.length;
+}
+
+// Whether a group has a smaller root than the one found, and is to be sought from there. A cycle
+// that is solved alone stays: what it leaves to the next may have no root.
+bool Growing::HasLess(const GroupSight& group, const Sight& scan) {
+  if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
+  if (!MayHaveLess(group) || !IsNew(group, scan, &scanned_below_)) return false;
+  Unknown& unknown = problem_.groups.At(group.id);
+  const double root = unknown.mu;
+  if (!bisection_.ScanBelow(group, scan)) return false;
+  unknown.other_roots.push_back(root);
+  return true;
 }
 
 bool Growing::Reopen(const Sight& scan, double before) {
@@ -186,12 +212,14 @@ bool Growing::Reopen(const Sight& scan, double before) {
       unknown.given_up = false;
       return true;
     }
-    if (!without || problem_.Aborted()) continue;
+    if (problem_.Aborted()) break;
+    if (HasLess(g, scan)) return true;
+    if (!without) continue;
     // What loads limit may have a root while all else is held, and none with all else solved.
     const bool refuted =
         unknown.status == Cycle::Status::kLimited && unknown.reopened == kMostReopened;
     if (refuted) continue;
-    const bool found = HasRoot(g, scan);
+    const bool found = IsNew(g, scan, &scanned_) && bisection_.Scan(g);
     if (!found && Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
     unknown.given_up = unknown.reopened == kMostReopened;
     if (!unknown.given_up) ++unknown.reopened;

@@ -16,7 +16,7 @@ class Growing {
       : problem_(problem), log_(log), bisection_(bisection) {}
 
   /// A search begins, of which nothing is known but the groups.
-  void Begin() { scanned_.clear(); }
+  void Begin() { scanned_.clear(), scanned_below_.clear(); }
 
   /// Grows the group for what bisection has found, or finds that the run cuts it. False: it cannot
   /// grow, or may not.
@@ -33,7 +33,11 @@ class Growing {
 
  private:
   bool Holds(const GroupSight& group, const Group::Reached& side, double sign);
-  bool HasRoot(const GroupSight& group, const Sight& scan);
+  // Σμ of all with which groups were scanned last.
+  using Scanned = std::map<GroupId, double>;
+  static bool IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned);
+  bool MayHaveLess(const GroupSight& group) const;
+  bool HasLess(const GroupSight& group, const Sight& scan);
   bool IsCut(const GroupId& id);
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
@@ -44,7 +48,7 @@ class Growing {
   Problem& problem_;
   IterationLog& log_;
   Bisection& bisection_;
-  std::map<GroupId, double> scanned_;  // Σμ of all with which a group was scanned last.
+  Scanned scanned_, scanned_below_;  // For any root, for a smaller one.
 };
 
 }  // namespace contact

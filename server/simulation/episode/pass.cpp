@@ -155,6 +155,7 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     made.sought = IsSought(scenario_, cycle.contact);
     if (!IsGiven(contact.damping)) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
+    made.kind = cycle.kind;
     made.start_time = cycle.start_time;
     made.after_rest = state.member.after_rest;
     if (unknown.weak && mu == state.last_mu) {  // It keeps that μ, and so its column.

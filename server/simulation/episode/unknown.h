@@ -49,6 +49,7 @@ struct Unknown {
   /// kConverged, kJump, kLimited, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;
+  std::vector<double> other_roots;  ///< Larger μ that solve its balance, too, as they were seen.
 
   /// Whether the search leaves it alone from now on.
   bool Decided() const {
@@ -62,10 +63,11 @@ struct GroupSight {
   GroupId id;
   double mu = 0;
   double restitution_in = kNaN;
-  bool sought = false;      ///< Its μ is to be found; else a law gives it.
-  bool ended = false;       ///< In the pass.
-  bool separated = false;   ///< How it ended.
-  bool weak = false;        ///< Negligible work.
+  Cycle::Kind kind = Cycle::Kind::kCollision;  ///< How its first cycle begins.
+  bool sought = false;                         ///< Its μ is to be found; else a law gives it.
+  bool ended = false;                          ///< In the pass.
+  bool separated = false;                      ///< How it ended.
+  bool weak = false;                           ///< Negligible work.
   bool released = false;    ///< A restitution without compression before it; not sought.
   bool after_rest = false;  ///< Before it the contact has rested: it joins none before.
   int first_cycle = 1, cycles = 0;
