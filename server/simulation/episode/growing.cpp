@@ -1,5 +1,6 @@
 #include "simulation/episode/growing.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -31,6 +32,9 @@ constexpr double kLonger = 1.01;
 constexpr double kSame = 1e-3;
 // A collision lasts so many times δ_m/δ̇⁻ at most, 2.9 without damping, where nothing disturbs it.
 constexpr double kPlain = 4.5;
+// Groups that overlap one which is scanned for a smaller root, at most: in a row of 40 balls scans
+// take more steps than all else.
+constexpr std::ptrdiff_t kFew = 8;
 // So many roots of a group are told, and left for smaller ones.
 constexpr std::size_t kMostRoots = 4;
 // A cycle that jumps alone has a μ so far, relative, beside its jump: on its very edge the least
@@ -186,11 +190,18 @@ bool Growing::MayHaveLess(const GroupSight& group) const {
   return compressed || (group.end_time - group.start_time) * group.speed > kPlain * group.length;
 }
 
+std::ptrdiff_t Growing::Overlapping(const GroupSight& group, const Sight& scan) {
+  return std::ranges::count_if(scan.groups, [&](const GroupSight& g) {
+    return g.start_time < group.end_time && (!g.ended || g.end_time > group.start_time);
+  });
+}
+
 // Whether a group has a smaller root than the one found, and is to be sought from there. A cycle
 // that is solved alone stays: what it leaves to the next may have no root.
 bool Growing::HasLess(const GroupSight& group, const Sight& scan) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
-  if (!MayHaveLess(group) || !IsNew(group, scan, &scanned_below_)) return false;
+  if (!MayHaveLess(group) || Overlapping(group, scan) > kFew) return false;
+  if (!IsNew(group, scan, &scanned_below_)) return false;
   Unknown& unknown = problem_.groups.At(group.id);
   const double root = unknown.mu;
   if (!bisection_.ScanBelow(group, scan)) return false;

@@ -37,6 +37,7 @@ class Growing {
   using Scanned = std::map<GroupId, double>;
   static bool IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned);
   bool MayHaveLess(const GroupSight& group) const;
+  static std::ptrdiff_t Overlapping(const GroupSight& group, const Sight& scan);
   bool HasLess(const GroupSight& group, const Sight& scan);
   bool IsCut(const GroupId& id);
   bool Grow(const GroupId& id, Growth why);
