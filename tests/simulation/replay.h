@@ -1,7 +1,5 @@
 #pragma once
 
-// The episode of a group with the μ that a run has found, passed through with another μ of it.
-
 #include <algorithm>
 #include <cmath>
 #include <functional>

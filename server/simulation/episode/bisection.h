@@ -26,8 +26,8 @@ class Bisection {
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
-  /// Whether the group, which its μ solves in this pass, has a smaller root. Sets its μ to the
-  /// smallest.
+  /// Whether a group that its μ solves, as this pass has seen it, has a smaller root. Sets its μ to
+  /// the smallest; where there is none, nothing changes.
   bool ScanBelow(const GroupSight& group, const Sight& sight);
 
  private:
@@ -60,7 +60,7 @@ class Bisection {
   GroupSight group_;  // As first seen.
   double near_ = 0;   // The excess of a root.
   double until_ = 0;  // What has not ended then is open [s].
-  double below_ = 0;  // A scan is for smaller roots.
+  double below_ = 0;  // A scan looks for a root below this μ.
   double error_ = 0;  // Relative error of a pass; 0: as little as the scenario asks.
   bool sharply_ = true;
   Point more_, less_;  // Nearest μ with too much, too little.

@@ -30,12 +30,14 @@ constexpr double kLonger = 1.01;
 // A change of what is around a group by less than this gives it no root that it had not. Scanned
 // again for every change, 2 more of 40 stacks of the machines spend a million steps.
 constexpr double kSame = 1e-3;
-// A collision lasts so many times δ_m/δ̇⁻ at most, 2.9 without damping, where nothing disturbs it.
+// Where nothing disturbs it a collision lasts 2.9 δ_m/δ̇⁻ without damping, and somewhat longer with
+// damping. A group that begins with δ = 0 and lasts no longer than this is taken for one: of 103
+// smaller roots in 6,912 groups of random scenarios that loses two.
 constexpr double kPlain = 4.5;
-// Groups that overlap one which is scanned for a smaller root, at most: in a row of 40 balls scans
-// take more steps than all else.
+// Groups that overlap in time, the group itself among them, where it is scanned for a smaller root:
+// in a row of 40 balls scans take more steps than all else. LongRowGuess.APoorOneIsMadeAgain.
 constexpr std::ptrdiff_t kFew = 8;
-// So many roots of a group are left for smaller ones.
+// So many times a group is left for a smaller root: a guard against two that replace each other.
 constexpr int kMostReplaced = 4;
 // A cycle that jumps alone has a μ so far, relative, beside its jump: on its very edge the least
 // change of a neighbour's μ makes it jump, so that the neighbour has no root either.
@@ -180,8 +182,8 @@ bool Growing::IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned
   return true;
 }
 
-// Whether ε may not fall with the μ of a group all the way: a collision that nothing disturbs lasts
-// no longer than this one, and begins with δ = 0.
+// Whether a solved group may have a smaller root: it begins compressed, or lasts longer than a
+// collision that nothing disturbs, whose ε falls with μ.
 bool Growing::MayHaveLess(const GroupSight& group) const {
   const Unknown& unknown = problem_.groups.At(group.id);
   const bool solved = group.sought && unknown.status == Cycle::Status::kConverged;
@@ -190,6 +192,7 @@ bool Growing::MayHaveLess(const GroupSight& group) const {
   return compressed || (group.end_time - group.start_time) * group.speed > kPlain * group.length;
 }
 
+// How many groups a pass has seen overlap this one in time; the group itself counts.
 std::ptrdiff_t Growing::Overlapping(const GroupSight& group, const Sight& scan) {
   return std::ranges::count_if(scan.groups, [&](const GroupSight& g) {
     return g.start_time < group.end_time && (!g.ended || g.end_time > group.start_time);
