@@ -114,6 +114,7 @@ v1::Group Encode(const Scenario& scenario, const Group& group) {
     message.set_too_little_mu(group.too_little.mu);
     message.set_too_little_restitution(group.too_little.restitution);
   }
+  message.mutable_other_roots()->Assign(group.other_roots.begin(), group.other_roots.end());
   return message;
 }
 

@@ -149,6 +149,23 @@ TEST_F(ArtifactTest, GroupsAreThoseOfTheJob) {
   }
 }
 
+TEST_F(ArtifactTest, AListOfNumbersIsOneCell) {
+  FakeRun run([](const Scenario&, Observer& observer, const std::stop_token&) {
+    observer.OnGroup({.number = 1, .other_roots = {5, 1.5}});
+    observer.OnGroup({.number = 2});
+    return Outcome{};
+  });
+  run.Allow();
+  Open({.workers = 1, .run = std::ref(run)});
+  const std::string job = Create(BouncingBall(2));
+  Ended(job);
+  const std::vector<std::string> lines = Lines(Get(job, "groups.csv").data);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_TRUE(lines[0].ends_with(",other_roots [N·s/m^(n+1)]")) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",0,5 1.5")) << lines[1];
+  EXPECT_TRUE(lines[2].ends_with(",0,")) << lines[2];
+}
+
 TEST_F(ArtifactTest, EarlierAttemptsAreLeftOut) {
   FakeRun run([](const Scenario&, Observer& observer, const std::stop_token& stop) {
     observer.OnSamples({0, 7, std::vector<double>(14, 3)});

@@ -81,7 +81,8 @@ Group FullGroup() {
           .restitution_out = 12,
           .residual = 13,
           .too_much = {.mu = 14, .restitution = 15},
-          .too_little = {.mu = 16, .restitution = 17}};
+          .too_little = {.mu = 16, .restitution = 17},
+          .other_roots = {18, 19}};
 }
 
 TEST(Encode, GroupKeepsEveryField) {
@@ -90,7 +91,7 @@ TEST(Encode, GroupKeepsEveryField) {
             "end_time_s: 7 end: NON_SEPARATION mu: 8 work_compression_j: 9 "
             "work_restitution_j: -10 restitution_in: 11 restitution_out: 12 status: JUMP "
             "growth: TOO_MUCH residual: 13 too_much_mu: 14 too_much_restitution: 15 "
-            "too_little_mu: 16 too_little_restitution: 17");
+            "too_little_mu: 16 too_little_restitution: 17 other_roots: 18 other_roots: 19");
 }
 
 TEST(Encode, GroupOfWhichNothingWasReachedTellsNoMu) {

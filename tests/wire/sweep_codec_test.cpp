@@ -463,6 +463,24 @@ TEST(SweepMetrics, ChooseAmongAllEntriesOrThoseOfAName) {
   EXPECT_EQ(MetricOf("cycles.min.peak_force_n", job), 2);
 }
 
+TEST(SweepMetrics, ChooseAmongTheNumbersOfAList) {
+  v1::Job job;
+  for (const double mu : {7.0, 9.0, 8.0}) job.add_groups()->add_other_roots(mu);
+  for (const double mu : {6.0, 5.0}) job.mutable_groups(1)->add_other_roots(mu);
+  const auto of_group = [&](const std::string& pick) {
+    return MetricOf("groups[1].other_roots" + pick, job);
+  };
+  EXPECT_EQ(of_group("[1]"), 6);
+  EXPECT_EQ(of_group(".first"), 9);
+  EXPECT_EQ(of_group(".last"), 5);
+  EXPECT_EQ(of_group(".max"), 9);
+  EXPECT_EQ(of_group(".min"), 5);
+  EXPECT_EQ(of_group(".count"), 3);
+  EXPECT_EQ(MetricOf("groups.last.other_roots.first", job), 8);
+  EXPECT_TRUE(std::isnan(of_group("[3]")));
+  EXPECT_TRUE(std::isnan(MetricOf("groups[3].other_roots.max", job)));
+}
+
 TEST(SweepMetrics, LargestAndSmallestLeaveOutWhatIsNoNumber) {
   const v1::Job job = FourCycles();
   EXPECT_EQ(MetricOf("cycles[B-C].min.restitution_out", job), 0.7);
@@ -544,7 +562,8 @@ TEST(SweepMetrics, OfAContactThatWasNotTouchedSaySo) {
 TEST(SweepMetrics, ChoicesAreOfListsAndEndWithANumber) {
   v1::Sweep sweep = Grid();
   for (const auto* metric : {"cycles[0].last.mu", "cycles.count.mu", "cycles.max", "cycles.mean.mu",
-                             "cycles.last.contact"}) {
+                             "cycles.last.contact", "groups[0].other_roots[A-B]",
+                             "groups[0].other_roots"}) {
     sweep.add_metrics(metric);
   }
   EXPECT_THAT(Mistakes(sweep),
@@ -552,7 +571,9 @@ TEST(SweepMetrics, ChoicesAreOfListsAndEndWithANumber) {
                           "metrics[2]: 'cycles.count.mu': unknown field 'mu'",
                           HasSubstr("metrics[3]: 'cycles.max' is not a number"),
                           HasSubstr("metrics[4]: 'cycles.mean.mu': cycles is a list"),
-                          HasSubstr("metrics[5]: 'cycles.last.contact' is not a number")));
+                          HasSubstr("metrics[5]: 'cycles.last.contact' is not a number"),
+                          HasSubstr("metrics[6]: 'groups[0].other_roots[A-B]': other_roots is a"),
+                          HasSubstr("metrics[7]: 'groups[0].other_roots': other_roots is a list")));
 }
 
 }  // namespace

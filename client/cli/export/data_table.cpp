@@ -1,6 +1,8 @@
 #include "cli/export/data_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <google/protobuf/reflection.h>
 
 #include <limits>
 #include <span>
@@ -79,6 +81,7 @@ constexpr Meaning kGroup[] = {
     {"too_much_restitution", "restitution at too_much_mu"},
     {"too_little_mu", "nearest mu that gave too little restitution"},
     {"too_little_restitution", "restitution at too_little_mu"},
+    {"other_roots", "larger mu that give that restitution, too"},
     {"beside_cut", "whether the end of the run cuts it, or one that overlaps it"},
 };
 
@@ -134,7 +137,8 @@ std::vector<DataColumn> Columns(const google::protobuf::Descriptor& type,
     DataColumn column{std::string(meaning.name.empty() ? found.name : meaning.name),
                       std::string(found.unit), std::string(meaning.description),
                       std::vector<double>()};
-    if (found.unit.empty()) column.values = std::vector<std::string>();
+    if (found.unit.empty() || Field(type, meaning).is_repeated())
+      column.values = std::vector<std::string>();
     columns.push_back(std::move(column));
   }
   return columns;
@@ -156,6 +160,10 @@ double Number(const Message& message, const FieldDescriptor& field) {
 
 std::string Word(const Message& message, const FieldDescriptor& field) {
   const auto& reflection = *message.GetReflection();
+  if (field.is_repeated()) {
+    return fmt::format("{}",
+                       fmt::join(reflection.GetRepeatedFieldRef<double>(message, &field), " "));
+  }
   if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING) {
     return reflection.GetString(message, &field);
   }

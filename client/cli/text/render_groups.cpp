@@ -71,6 +71,16 @@ std::string NoSolution(const v1::Group& group) {
       certificate);
 }
 
+// A line for a group that larger μ solve, too, else empty.
+std::string OtherRoots(const v1::Group& group) {
+  if (group.other_roots().empty()) return "";
+  std::vector<std::string> roots;
+  for (const double mu : group.other_roots()) roots.push_back(Digits(mu, 6));
+  return fmt::format("{} group {}: the smallest μ with a restitution of {}; so has {}\n",
+                     group.contact(), group.number(), Digits(group.restitution_in(), 6),
+                     fmt::join(roots, ", "));
+}
+
 std::string Released(const v1::Group& group) {
   const double given = -group.work_restitution_j();
   return fmt::format("it gives back {} was stored before",
@@ -106,7 +116,7 @@ std::string WhyInWords(v1::Group::Growth why) {
 
 bool IsNotable(const v1::Group& group) {
   return group.cycles() > 1 || group.status() == v1::Cycle::UNFINISHED ||
-         !Certificate(group).empty();
+         !group.other_roots().empty() || !Certificate(group).empty();
 }
 
 std::string CyclesOf(const v1::Group& group) {
@@ -145,7 +155,9 @@ std::string RenderGroups(const v1::Job& job, const Style& style) {
     if (!IsNotable(group)) continue;
     ++groups;
     table.Add(Row(group));
-    if (std::string line = NoSolution(group); !line.empty()) lines.push_back(std::move(line));
+    for (std::string line : {NoSolution(group), OtherRoots(group)}) {
+      if (!line.empty()) lines.push_back(std::move(line));
+    }
   }
   if (groups == 0) return "";
   if (lines.size() > kMostGroupRows)

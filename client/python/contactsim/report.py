@@ -119,10 +119,10 @@ def _groups(job: job_pb2.Job) -> str:
     told = (job_pb2.Cycle.JUMP, job_pb2.Cycle.INFEASIBLE, job_pb2.Cycle.LIMITED,
             job_pb2.Cycle.RELEASED, job_pb2.Cycle.UNFINISHED)
     headers = ("Contact", "Group", "Cycles", "End", "Status", "Grew", "μ", "ε in", "ε out", "Error",
-               "Residual", "Start [s]", "End [s]", "ε at too little μ", "ε at too much μ")
+               "Residual", "Start [s]", "End [s]", "ε at too little μ", "ε at too much μ", "Other μ")
     rows = []
     for g in job.groups:
-        if g.cycles <= 1 and g.status not in told:
+        if g.cycles <= 1 and g.status not in told and not g.other_roots:
             continue
         last = g.first_cycle + g.cycles - 1
         cycles = f"{g.first_cycle} to {last}" if g.cycles > 1 else str(g.first_cycle)
@@ -132,7 +132,7 @@ def _groups(job: job_pb2.Job) -> str:
                          _digits(g.mu, 7), _digits(g.restitution_in, 6),
                          _digits(g.restitution_out, 8), _error(g.restitution_out, g.restitution_in),
                          _power(g.residual), _digits(g.start_time_s, 7), _digits(g.end_time_s, 7),
-                         *few), g.status in _MISSED))
+                         *few, ", ".join(_digits(mu, 7) for mu in g.other_roots)), g.status in _MISSED))
     return "<h3>Groups of cycles</h3>\n" + _first(headers, rows, "group", "groups") if rows else ""
 
 

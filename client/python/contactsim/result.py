@@ -218,7 +218,9 @@ def _row(message: Any) -> dict[str, Any]:
 
 
 def _value(field: FieldDescriptor, value: Any) -> Any:
-    """Enum values by name; the unspecified one is empty."""
+    """Enum values by name; the unspecified one is empty. Of a list a list."""
+    if field.label == field.LABEL_REPEATED:
+        return list(value)
     if not field.enum_type:
         return value
     return field.enum_type.values_by_number[value].name if value else ""

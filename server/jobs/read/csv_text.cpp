@@ -1,10 +1,13 @@
 #include "jobs/read/csv_text.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/reflection.h>
 
 #include <array>
 #include <charconv>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "jobs/read/frame_values.h"
 #include "wire/column_name.h"
@@ -22,7 +25,17 @@ void Append(double value, std::string* text) {
   text->append(digits.data(), end.ptr);
 }
 
+// Of a list of numbers all, with spaces between them.
+void AppendEach(const Message& row, const FieldDescriptor& list, std::string* text) {
+  std::string_view space;
+  for (const double value : row.GetReflection()->GetRepeatedFieldRef<double>(row, &list)) {
+    *text += std::exchange(space, " ");
+    Append(value, text);
+  }
+}
+
 void Append(const Message& row, const FieldDescriptor& field, std::string* text) {
+  if (field.is_repeated()) return AppendEach(row, field, text);
   const auto& reflection = *row.GetReflection();
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_DOUBLE:

@@ -104,7 +104,7 @@ void serialize(Archive& archive, Group& g) {
   archive(g.contact, g.number, g.encounter, g.first_cycle, g.cycles);
   archive(g.start_time, g.end_time, g.end, g.status, g.growth, g.mu);
   archive(g.work_compression, g.work_restitution, g.restitution_in, g.restitution_out);
-  archive(g.residual, g.beside_cut, g.too_much, g.too_little);
+  archive(g.residual, g.beside_cut, g.too_much, g.too_little, g.other_roots);
 }
 
 template <class Archive>
@@ -166,7 +166,7 @@ void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out);
   archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips, u.cut,
           u.given_up, u.lowered, u.iterations);
-  archive(u.growth, u.missing, u.status, u.too_much, u.too_little, u.replaced);
+  archive(u.growth, u.missing, u.status, u.too_much, u.too_little, u.other_roots);
 }
 
 template <class Archive>

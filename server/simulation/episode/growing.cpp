@@ -38,7 +38,7 @@ constexpr double kPlain = 4.5;
 // in a row of 40 balls scans take more steps than all else. LongRowGuess.APoorOneIsMadeAgain.
 constexpr std::ptrdiff_t kFew = 8;
 // So many times a group is left for a smaller root: a guard against two that replace each other.
-constexpr int kMostReplaced = 4;
+constexpr std::size_t kMostReplaced = 4;
 // A cycle that jumps alone has a μ so far, relative, beside its jump: on its very edge the least
 // change of a neighbour's μ makes it jump, so that the neighbour has no root either.
 // Episode.ACycleThatJumpsPastItsRestitutionIsInfeasibleAlone.
@@ -187,7 +187,7 @@ bool Growing::IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned
 bool Growing::MayHaveLess(const GroupSight& group) const {
   const Unknown& unknown = problem_.groups.At(group.id);
   const bool solved = group.sought && unknown.status == Cycle::Status::kConverged;
-  if (!solved || group.weak || unknown.replaced == kMostReplaced) return false;
+  if (!solved || group.weak || unknown.other_roots.size() >= kMostReplaced) return false;
   const bool compressed = group.kind == Cycle::Kind::kNirv && group.id.place > 1;
   return compressed || (group.end_time - group.start_time) * group.speed > kPlain * group.length;
 }
@@ -205,8 +205,10 @@ bool Growing::HasLess(const GroupSight& group, const Sight& scan) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
   if (!MayHaveLess(group) || Overlapping(group, scan) > kFew) return false;
   if (!IsNew(group, scan, &scanned_below_)) return false;
+  Unknown& unknown = problem_.groups.At(group.id);
+  const double root = unknown.mu;
   if (!bisection_.ScanBelow(group, scan)) return false;
-  ++problem_.groups.At(group.id).replaced;
+  unknown.other_roots.push_back(root);
   return true;
 }
 

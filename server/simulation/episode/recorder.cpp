@@ -18,6 +18,8 @@ constexpr double kRecorded = 2;
 // round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
 // W_c. A work of this part of the energy of all is nothing: its row proves nothing.
 constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
+// Two μ so near, relative, are one root.
+constexpr double kSameRoot = 1e-6;
 
 double Ratio(double work_compression, double work_restitution) {
   const double squared = -work_restitution / work_compression;
@@ -118,6 +120,7 @@ void Recorder::Open(ContactState& state, const Unknown& unknown) const {
   if (!IsGiven(contact.damping)) group.restitution_in = contact.restitution;
   group.restitution_out = unknown.restitution_out;
   group.growth = unknown.growth;
+  group.other_roots = unknown.other_roots;
   const bool told = unknown.Decided();
   if (told) group.too_much = unknown.too_much, group.too_little = unknown.too_little;
   state.cycle.iterations = unknown.iterations;
@@ -248,6 +251,9 @@ void Recorder::Close(ContactState& state) {
       status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
   if (answerless && (weak || state.member.nothing)) status = Cycle::Status::kSettled;
   group.status = status;
+  std::erase_if(group.other_roots, [&](double mu) {
+    return status != Cycle::Status::kConverged || mu <= group.mu * (1 + kSameRoot);
+  });
   group.beside_cut = group.end_time > known_.cut_since();
   const bool answered = unknown == nullptr || unknown->given_up;
   if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;

@@ -49,7 +49,7 @@ struct Unknown {
   /// kConverged, kJump, kLimited, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;
-  int replaced = 0;  ///< How often a smaller root has taken the place of its μ.
+  std::vector<double> other_roots;  ///< Larger μ that solve its balance, too, as they were seen.
 
   /// Whether the search leaves it alone from now on.
   bool Decided() const {

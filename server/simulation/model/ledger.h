@@ -101,6 +101,7 @@ struct Group {
   double residual = 0;                     ///< |(W4)| summed over its cycles, / W_c.
   bool beside_cut = false;                 ///< The end of the run cuts it, or one that overlaps it.
   Reached too_much = {}, too_little = {};  ///< Of those without a μ: the nearest on either side.
+  std::vector<double> other_roots = {};    ///< Larger μ with ε_in that the search has seen.
 };
 
 /// One pass through an episode with one set of μ.

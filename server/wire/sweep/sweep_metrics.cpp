@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <google/protobuf/descriptor.h>
+#include <google/protobuf/reflection.h>
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,10 @@ constexpr std::array<std::string_view, 6> kOfCycles{
 
 bool IsOfCycles(const FieldDescriptor& field) {
   return std::ranges::find(kOfCycles, field.name()) != kOfCycles.end();
+}
+
+bool IsListOfReals(const FieldDescriptor& field) {
+  return field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
 }
 
 // What names an entry: its body or its contact.
@@ -103,7 +108,8 @@ SweepMetrics::Path SweepMetrics::Follow(std::span<const PathStep> steps, const s
     steps = steps.subspan(1);
     const std::optional<Pick> pick =
         field->is_repeated() && !step.index ? PickOf(steps) : std::nullopt;
-    const bool entry = step.index.has_value() || !step.key.empty() || pick.has_value();
+    const bool named = !step.key.empty() && field->message_type() != nullptr;
+    const bool entry = step.index.has_value() || named || pick.has_value();
     if (field->is_repeated() != entry || step.index == PathStep::kEvery) {
       rules.Break("",
                   fmt::format("{}: {} {}", Quoted(text), step.name,
@@ -117,7 +123,8 @@ SweepMetrics::Path SweepMetrics::Follow(std::span<const PathStep> steps, const s
     type = pick == Pick::kCount ? nullptr : field->message_type();
     path.push_back({field, step.index, step.key, pick.value_or(Pick::kFirst)});
   }
-  if (path.back().pick != Pick::kCount && !IsNumber(*path.back().field)) {
+  const FieldDescriptor& last = *path.back().field;
+  if (path.back().pick != Pick::kCount && !IsNumber(last) && !IsListOfReals(last)) {
     rules.Break("", Quoted(text) + " is not a number", "name a number in it");
   }
   return path;
@@ -180,6 +187,7 @@ std::vector<SweepMetrics::Metric> SweepMetrics::Of(const v1::Job& result,
 SweepMetrics::Metric SweepMetrics::Value(std::span<const Step> path, const Message& message) {
   const auto* reflection = message.GetReflection();
   const FieldDescriptor& field = *path.front().field;
+  if (IsListOfReals(field)) return ValueOfReals(path.front(), message);
   if (field.is_repeated()) return ValueOfList(path, message);
   if (IsNumber(field)) {
     const bool unset = field.has_presence() && !reflection->HasField(message, &field);
@@ -210,6 +218,17 @@ SweepMetrics::Metric SweepMetrics::ValueOfList(std::span<const Step> path, const
   if (hidden) found.source = v1::SweepCell::CUT;
   const bool of_contacts = step.field->message_type() != v1::FinalBody::descriptor();
   if (count == 0 && of_contacts) found.source = v1::SweepCell::NO_CONTACT;
+  return found;
+}
+
+SweepMetrics::Metric SweepMetrics::ValueOfReals(const Step& step, const Message& message) {
+  const auto reals = message.GetReflection()->GetRepeatedFieldRef<double>(message, step.field);
+  if (step.pick == Pick::kCount) return {.value = static_cast<double>(reals.size())};
+  Metric found;
+  for (int i = step.index.value_or(0); i < reals.size(); ++i) {
+    if (step.pick == Pick::kFirst) return {.value = reals.Get(i)};
+    if (IsChosen(step.pick, reals.Get(i), found.value)) found.value = reals.Get(i);
+  }
   return found;
 }
 

@@ -70,6 +70,8 @@ class SweepMetrics {
   static Metric Value(std::span<const Step> path, const Message& message);
   // Value for a path that begins with a list of `message`.
   static Metric ValueOfList(std::span<const Step> path, const Message& message);
+  // Value of a list of numbers of `message`.
+  static Metric ValueOfReals(const Step& step, const Message& message);
   // Whether the number of the next entry takes the place of the one chosen before.
   static bool IsChosen(Pick pick, double next, double before);
 

@@ -143,6 +143,7 @@ TEST(DataTable, EveryGroupIsARow) {
     v1::Group& group = *job.add_groups();
     group.set_mu(mu);
     group.set_growth(v1::Group::TOO_LITTLE);
+    group.add_other_roots(2 * mu), group.add_other_roots(1e8);
   }
   const DataTable table = GroupsTable(job);
   EXPECT_EQ(table.name, "groups");
@@ -152,6 +153,8 @@ TEST(DataTable, EveryGroupIsARow) {
   EXPECT_THAT(std::get<std::vector<double>>(column("mu [N·s/m^(n+1)]").values), ElementsAre(3, 4));
   EXPECT_THAT(std::get<std::vector<std::string>>(column("growth").values),
               ElementsAre("TOO_LITTLE", "TOO_LITTLE"));
+  EXPECT_THAT(std::get<std::vector<std::string>>(column("other_roots [N·s/m^(n+1)]").values),
+              ElementsAre("6 100000000", "8 100000000"));
 }
 
 TEST(DataTable, RowsOfTheLedgerHaveTheValuesOfTheCycles) {

@@ -77,6 +77,14 @@ TEST(RenderGroups, ShowsWhatALimitedGroupReachedAndWhatAReleasedOneGivesBack) {
   EXPECT_THAT(RenderGroups(job, {}), HasSubstr(": it gives back what was stored before\n"));
 }
 
+TEST(RenderGroups, TellsOfLargerRoots) {
+  v1::Job job;
+  *job.add_groups() = Reached(v1::Cycle::CONVERGED, "other_roots: 8 other_roots: 3e8");
+  EXPECT_THAT(
+      RenderGroups(job, {}),
+      HasSubstr("\nwall group 2: the smallest μ with a restitution of 0.5; so has 8, 3e+08\n"));
+}
+
 TEST(Certificate, SaysWhichWayTheRestitutionMisses) {
   const auto words = [](const std::string& reached) {
     return Certificate(Reached(v1::Cycle::INFEASIBLE, reached));
