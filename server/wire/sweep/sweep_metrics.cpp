@@ -120,8 +120,8 @@ SweepMetrics::Path SweepMetrics::Follow(std::span<const PathStep> steps, const s
       return path;
     }
     if (pick) steps = steps.subspan(1);
-    type = pick == Pick::kCount ? nullptr : field->message_type();
     path.push_back({field, step.index, step.key, pick.value_or(Pick::kFirst)});
+    type = path.back().pick == Pick::kCount ? nullptr : field->message_type();
   }
   const FieldDescriptor& last = *path.back().field;
   if (path.back().pick != Pick::kCount && !IsNumber(last) && !IsListOfReals(last)) {
