@@ -23,6 +23,17 @@ Scenario Placed(double restitution, double force) {
   return s;
 }
 
+// A ball of 0.25 kg on a table of 10 t, which a force moves to and fro.
+Scenario Shaker() {
+  Scenario s;
+  s.bodies = {{.name = "table", .mass = 1e4, .radius = 0.01, .velocity = 0.1329430359},
+              {.name = "ball", .mass = 0.24763, .radius = 0.02, .position = 0.030050642}};
+  s.contacts = {{.left = 0, .right = 1, .stiffness = 4970850, .restitution = 0.7372}};
+  s.loads = {{.body = 0, .amplitude = -106875.44, .angular_frequency = 80.391905},
+             {.body = 1, .constant = -9.80665 * 0.24763}};
+  return s;
+}
+
 const Cycle* First(const Record& r, Cycle::Status status) {
   const auto found = std::ranges::find(r.cycles, status, &Cycle::status);
   return found == r.cycles.end() ? nullptr : &*found;
@@ -160,6 +171,25 @@ TEST(TheEnd, MarksGroupsThatOverlapOneThatItCuts) {
   const Record cut = RunAndRecord(s);
   ASSERT_EQ(cut.groups.size(), whole.groups.size());
   for (const Group& g : cut.groups) EXPECT_TRUE(g.beside_cut);
+}
+
+// The cycle after the trough gives back too much whatever its μ. With a later end it joins the
+// group before, of which the μ is ten times as large then.
+TEST(TheEnd, MarksAGroupWhoseNextCycleItCuts) {
+  Scenario s = Shaker();
+  s.end_time = 0.3964;
+  const Record cut = RunAndRecord(s);
+  s.end_time = 0.519284;
+  const Record whole = RunAndRecord(s);
+  ASSERT_EQ(cut.groups.size(), 12U);
+  for (std::size_t i = 0; i < cut.groups.size(); ++i) {
+    EXPECT_EQ(cut.groups[i].beside_cut, i >= 9) << i + 1;
+    if (i < 10) EXPECT_NEAR(cut.groups[i].mu / whole.groups[i].mu, 1, 1e-6) << i + 1;
+  }
+  EXPECT_NEAR(cut.groups[10].mu, 4.3251e7, 1e4);
+  EXPECT_NEAR(whole.groups[10].mu, 4.4372e8, 1e5);
+  EXPECT_EQ(whole.groups[10].growth, Growth::kTooMuch);
+  EXPECT_FALSE(whole.groups[10].beside_cut);
 }
 
 TEST(TheEnd, LeavesRowsOfALawThatEndBeforeItWhatTheyAre) {

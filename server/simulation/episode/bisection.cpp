@@ -165,11 +165,6 @@ bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
     const double mu = end.mu - end.excess / end.slope;
     if (!end.ended || !(mu > from.mu && mu < to.mu)) continue;
     const Point between = At(mu, true);
-    if (IsRoot(between) && between.mu < below_ && Exactly(Root::kFound) == Root::kFound) {
-      error_ = kCoarseTolerance;
-      return true;
-    }
-    error_ = kCoarseTolerance;
     return between.there && (HasRoot(from, between, depth - 1) || HasRoot(between, to, depth - 1));
   }
   return false;

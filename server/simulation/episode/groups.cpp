@@ -97,6 +97,10 @@ double Groups::RestEnd(const GroupId& before) const {
 
 void Groups::NoteCut(const Sight& sight, double end) {
   const auto until = [](const GroupSight& g) { return g.ended ? g.end_time : kNever; };
+  // What comes after a trough may join the group before it.
+  const auto before_cut = [&](const GroupSight& g) {
+    return until(g) < cut_since_ || (until(g) == cut_since_ && g.separated);
+  };
   cut_since_ = kNever;
   for (const GroupSight& g : sight.groups) {
     if (g.sought && g.start_time < end && until(g) > end) {
@@ -106,7 +110,7 @@ void Groups::NoteCut(const Sight& sight, double end) {
   for (bool earlier = true; earlier;) {
     earlier = false;
     for (const GroupSight& g : sight.groups) {
-      if (!g.sought || g.start_time >= cut_since_ || until(g) <= cut_since_) continue;
+      if (!g.sought || g.start_time >= cut_since_ || before_cut(g)) continue;
       cut_since_ = g.start_time;
       earlier = true;
     }

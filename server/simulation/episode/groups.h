@@ -36,8 +36,9 @@ class Groups {
   std::map<GroupId, double>& rest_ends() { return rest_ends_; }
   const std::map<GroupId, double>& rest_ends() const { return rest_ends_; }
 
-  /// Notes since when groups overlap one that the end of the run cuts, or one that overlaps such a
-  /// group: with a later end their μ may be others. `sight` has seen the run to its end [s].
+  /// Notes since when groups overlap one that the end of the run cuts, or a group that does, or end
+  /// at the trough where such a group begins: with a later end their μ may be others. `sight` has
+  /// seen the run to its end [s].
   void NoteCut(const Sight& sight, double end);
   /// That instant [s]; infinite if there is none.
   double cut_since() const { return cut_since_; }
