@@ -82,7 +82,7 @@ constexpr Meaning kGroup[] = {
     {"too_little_mu", "nearest mu that gave too little restitution"},
     {"too_little_restitution", "restitution at too_little_mu"},
     {"other_roots", "larger mu that give that restitution, too"},
-    {"beside_cut", "whether the end of the run cuts it, or one that overlaps it"},
+    {"beside_cut", "whether with a later end of the run its mu may be another"},
 };
 
 // A pass of the search for μ, and
