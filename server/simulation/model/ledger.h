@@ -99,7 +99,7 @@ struct Group {
   double restitution_in = kNaN;
   double restitution_out = kNaN;           ///< √(−W_r/W_c).
   double residual = 0;                     ///< |(W4)| summed over its cycles, / W_c.
-  bool beside_cut = false;                 ///< The end of the run cuts it, or one that overlaps it.
+  bool beside_cut = false;                 ///< See Groups::NoteCut.
   Reached too_much = {}, too_little = {};  ///< Of those without a μ: the nearest on either side.
   std::vector<double> other_roots = {};    ///< Larger μ with ε_in that the search has seen.
 };
