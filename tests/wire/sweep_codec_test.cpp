@@ -561,9 +561,9 @@ TEST(SweepMetrics, OfAContactThatWasNotTouchedSaySo) {
 
 TEST(SweepMetrics, ChoicesAreOfListsAndEndWithANumber) {
   v1::Sweep sweep = Grid();
-  for (const auto* metric : {"cycles[0].last.mu", "cycles.count.mu", "cycles.max", "cycles.mean.mu",
-                             "cycles.last.contact", "groups[0].other_roots[A-B]",
-                             "groups[0].other_roots"}) {
+  for (const auto* metric :
+       {"cycles[0].last.mu", "cycles.count.mu", "cycles.max", "cycles.mean.mu",
+        "cycles.last.contact", "groups[0].other_roots[A-B]", "groups[0].other_roots"}) {
     sweep.add_metrics(metric);
   }
   EXPECT_THAT(Mistakes(sweep),
