@@ -60,7 +60,7 @@ std::string SeriesCsv(const v1::Series& series) {
   return text;
 }
 
-std::string SeriesJson(const v1::Series& series) {
+std::string SeriesJson(const v1::Series& series, const std::string& sampling) {
   using Json = nlohmann::ordered_json;
   Json columns = Json::array();
   for (const auto& column : series.columns()) {
@@ -69,10 +69,11 @@ std::string SeriesJson(const v1::Series& series) {
                        {"unit", column.unit()},
                        {"values", Doubles(column.values())}});
   }
-  const Json document{{"name", series.name()},
-                      {"samples", series.samples()},
-                      {"recorded_samples", series.recorded_samples()},
-                      {"columns", std::move(columns)}};
+  Json document{{"name", series.name()},
+                {"samples", series.samples()},
+                {"recorded_samples", series.recorded_samples()}};
+  if (!sampling.empty()) document["sampling"] = sampling;
+  document["columns"] = std::move(columns);
   return document.dump() + "\n";  // NaN becomes null.
 }
 

@@ -14,8 +14,8 @@ std::string RenderSeries(const v1::Series& series, const Style& style);
 /// digits as give the same double back.
 std::string SeriesCsv(const v1::Series& series);
 
-/// A series as one JSON document: name, samples, recorded_samples, and columns with name, quantity,
-/// unit and values, NaN being null.
-std::string SeriesJson(const v1::Series& series);
+/// A series as one JSON document: name, samples, recorded_samples, `sampling` unless it is empty,
+/// and columns with name, quantity, unit and values, NaN being null.
+std::string SeriesJson(const v1::Series& series, const std::string& sampling = "");
 
 }  // namespace contact::cli

@@ -7,7 +7,7 @@
 #include "cli/base/message.h"
 #include "cli/base/number.h"
 #include "cli/export/data_table.h"
-#include "cli/export/series_selection.h"
+#include "cli/export/sampling.h"
 #include "cli/export/writers.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
@@ -53,9 +53,10 @@ void WriteTable(const DataTable& table, const Provenance& source, TableWriter* w
 }
 
 // Writes all tables to one file. Returns in words how many samples and cycles it holds.
-std::string WriteAll(Recording&& recording, FileWriter* write, const std::string& path) {
+std::string WriteAll(Recording&& recording, const std::string& sampling, FileWriter* write,
+                     const std::string& path) {
   const OutputFile writable(path);  // Fails with our message before the library does.
-  const Provenance provenance = ProvenanceOf(recording.job);
+  const Provenance provenance = WithSampling(ProvenanceOf(recording.job), sampling);
   std::vector<DataTable> tables{CyclesTable(recording.job), GroupsTable(recording.job),
                                 IterationsTable(recording.iterations), BodiesTable(recording.job)};
   tables.insert(tables.begin(), SeriesTable(std::move(recording)));
@@ -65,12 +66,15 @@ std::string WriteAll(Recording&& recording, FileWriter* write, const std::string
                      Count(static_cast<std::int64_t>(tables[1].rows()), "cycle", "cycles"));
 }
 
+// Sets `sampling` to the note on the samples from which the part was taken.
 Recording Read(Client& client, const std::string& job, const SeriesSelection& part,
-               const Settings& settings) {
+               const Settings& settings, std::string* sampling) {
   Recording recording = ReadRecording(client, job, settings, part.max_points == 0);
   if (part.max_points > 0) {
     recording.columns = ThinnedSeries(client, job, part);
-  } else {
+    *sampling = SamplingNote(client, job, part, settings);
+  } else if (!recording.columns.empty()) {
+    *sampling = SamplingNote(recording.job, recording.columns.front().values, part);
     Narrow(part, &recording.columns);
   }
   return recording;
@@ -116,9 +120,14 @@ std::string Write(const ExportArguments& arguments, OutputFormat format, const S
   if (table_writer == nullptr && file_writer == nullptr) {  // protobuf: events instead of tables.
     return Count(WriteProtobuf(client, job, settings, arguments.file), "event", "events");
   }
-  Recording recording = Read(client, job, arguments.part, settings);
-  if (file_writer != nullptr) return WriteAll(std::move(recording), file_writer, arguments.file);
-  const Provenance source = SourceOf(recording.job);
+  std::string sampling;
+  Recording recording = Read(client, job, arguments.part, settings, &sampling);
+  if (table_writer != nullptr && arguments.table != "series") sampling.clear();
+  TellSampling(sampling, job);
+  if (file_writer != nullptr) {
+    return WriteAll(std::move(recording), sampling, file_writer, arguments.file);
+  }
+  const Provenance source = WithSampling(SourceOf(recording.job), sampling);
   const DataTable table = Chosen(arguments.table, std::move(recording));
   WriteTable(table, source, table_writer, arguments);
   return Count(static_cast<std::int64_t>(table.rows()), "row", "rows");

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/export/provenance.h"
+#include "cli/export/sampling.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/settings/options.h"
@@ -35,25 +35,23 @@ v1::GetSeriesRequest Request(const std::string& job, const SeriesArguments& argu
   return request;
 }
 
-// With --comments the source of the series, in lines that begin with #.
-std::string Comments(Client& client, const std::string& job, const SeriesArguments& arguments) {
-  if (!arguments.comments) return "";
-  return CommentLines(SourceOf(GetJob(client, job)));
-}
-
 ExitCode Series(const SeriesArguments& arguments, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kCsv, OutputFormat::kJson});
   Client client = Connect(settings);
   const std::string job = FindJob(client, arguments.job);
   const v1::Series series =
       client.CallTellingAll(&Client::Stub::GetSeries, Request(job, arguments));
+  const std::string sampling =
+      SamplingNote(client, job, {.from = arguments.from, .to = arguments.to}, settings);
   if (settings.output == OutputFormat::kCsv) {
-    fmt::print("{}{}", Comments(client, job, arguments), SeriesCsv(series));
+    const auto source = [&] { return WithSampling(SourceOf(GetJob(client, job)), sampling); };
+    fmt::print("{}{}", arguments.comments ? CommentLines(source()) : "", SeriesCsv(series));
   } else if (settings.output == OutputFormat::kJson) {
-    PrintJson(SeriesJson(series), settings);
+    PrintJson(SeriesJson(series, sampling), settings);
   } else {
     fmt::print("{}", RenderSeries(series, settings.OutputStyle()));
   }
+  TellSampling(sampling, job);
   return ExitCode::kOk;
 }
 
