@@ -3,10 +3,12 @@ npm where it must; deploy/run does without the ports that it wants."""
 
 import os
 import pathlib
+import re
 import shutil
 import socket
 import subprocess
 import tempfile
+import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -121,15 +123,40 @@ class PackagesTest(unittest.TestCase):
         packages = listed("packages") + listed("docs-packages") + listed("test-packages")
         self.assertEqual(len(packages), len(set(packages)))
 
-    def test_building_and_running_needs_few_packages_and_no_server(self):
+    def fetched(self, *packages):
+        """Of a Debian with nothing installed: the files that apt-get fetches, with their bytes."""
         with tempfile.NamedTemporaryFile() as nothing_installed:
             plan = subprocess.run(
-                ["apt-get", "install", "--simulate", "--no-install-recommends", "-o",
-                 f"Dir::State::status={nothing_installed.name}", *listed("packages")],
+                ["apt-get", "install", "--print-uris", "--yes", "--no-install-recommends", "-o",
+                 f"Dir::State::status={nothing_installed.name}", *packages],
                 capture_output=True, text=True)
         if plan.returncode != 0:
             self.skipTest("apt-get has no lists of packages")
-        packages = {line.split()[1] for line in plan.stdout.splitlines() if line.startswith("Inst ")}
+        lines = [line.split() for line in plan.stdout.splitlines() if line.startswith("'")]
+        return {words[1]: int(words[2]) for words in lines}
+
+    def test_packages_of_a_release_need_few_others_and_little_to_fetch(self):
+        """Of `apt install --no-install-recommends ./build/package/*.deb`; what it installs of ours
+        needs the libraries of the programs and the modules of the Python client."""
+        linked = "".join(subprocess.run(["ldd", os.environ[program]], capture_output=True, text=True,
+                                        check=True).stdout for program in ("CONTACTD", "CONTACTCTL"))
+        paths = {pathlib.Path(path) for path in re.findall(r"=> (/\S+)", linked)}
+        owners = subprocess.run(
+            ["dpkg-query", "--search", *(f"*/{path.parent.name}/{path.name}" for path in paths)],
+            capture_output=True, text=True, check=True).stdout
+        modules = tomllib.loads((ROOT / "client/python/pyproject.toml").read_text("utf-8"))
+        needed = {*re.findall(r"^([^:]+):", owners, re.MULTILINE),
+                  *("python3-" + re.match(r"(?:py(?=yaml))?(\w+)", module)[1]
+                    for module in modules["project"]["dependencies"])}
+        self.assertLessEqual({"libgrpc++1.51", "libnetcdf19", "python3-yaml", "python3-numpy"}, needed)
+        minimal = ("apt", "?essential", "?priority(required)")
+        fetched, there = self.fetched(*minimal, *needed), self.fetched(*minimal)
+        new = [size for file, size in fetched.items() if file not in there]
+        self.assertLessEqual(len(new), 100)
+        self.assertLessEqual(sum(new), 60e6)
+
+    def test_building_and_running_needs_few_packages_and_no_server(self):
+        packages = {file.split("_")[0] for file in self.fetched(*listed("packages"))}
         # Beside the 96 of a minimal Debian, of which half are needed here too, 220.
         self.assertLess(len(packages), 270)
         self.assertEqual(packages & {*listed("test-packages"), "systemd", "dbus"}, set())
