@@ -204,14 +204,16 @@ void ScenarioFile::Check(const ScenarioLimits& limits) {
 void ScenarioFile::Add(const Violation& violation) { diagnostics_.push_back(Place(violation)); }
 
 Diagnostic ScenarioFile::Place(const Violation& violation) const {
-  const auto& [field, what, hint] = violation;
+  const std::string& field = violation.field;
   for (const std::string& path : overridden_) {
-    if (Within(field, path)) {
-      return {.source = std::string(kOverride), .field = field, .what = what, .hint = hint};
-    }
+    if (!Within(field, path)) continue;
+    return {.source = std::string(kOverride),
+            .field = field,
+            .what = WordsOf(violation, field == path),
+            .hint = violation.hint};
   }
   if (std::optional<Diagnostic> placed = tables_.Place(violation)) return *placed;
-  return DiagnosticAt(name_, FindNode(root_, field).node.Mark(), field, what, hint);
+  return DiagnosticIn(root_, name_, violation);
 }
 
 // A number out of its range is so whatever else is wrong, unless in the same message.

@@ -141,8 +141,7 @@ class SweepFile {
     }
     mistakes_ = CheckSweep(sweep_, base_ ? &*base_ : nullptr, [this](const Violation& rule) {
       if (std::optional<Diagnostic> placed = tables_.Place(rule)) return *placed;
-      const YAML::Mark mark = FindNode(root_, rule.field).node.Mark();
-      return DiagnosticAt(name(), mark, rule.field, rule.description, rule.hint);
+      return DiagnosticIn(root_, name(), rule);
     });
     if (!mistakes_.empty()) return;
     for (const Diagnostic& advice : advice_) fmt::print(stderr, "{}\n", Format(advice, "warning"));

@@ -121,6 +121,13 @@ FoundNode FindNode(const YAML::Node& root, const std::string& path) {
   return Find(root, ParsePath(path));
 }
 
+std::string WordsOf(const Violation& violation, bool given) {
+  constexpr std::string_view kMissing = "is missing";
+  const std::string& words = violation.description;
+  const bool is_zero = given && words.starts_with("is missing; must be ");
+  return is_zero ? "is 0" + words.substr(kMissing.size()) : words;
+}
+
 Diagnostic DiagnosticAt(std::string source, const YAML::Mark& mark, std::string field,
                         std::string what, std::string hint) {
   return {.source = std::move(source),
@@ -129,6 +136,12 @@ Diagnostic DiagnosticAt(std::string source, const YAML::Mark& mark, std::string 
           .field = std::move(field),
           .what = std::move(what),
           .hint = std::move(hint)};
+}
+
+Diagnostic DiagnosticIn(const YAML::Node& root, std::string source, const Violation& violation) {
+  const FoundNode found = FindNode(root, violation.field);
+  return DiagnosticAt(std::move(source), found.node.Mark(), violation.field,
+                      WordsOf(violation, found.exact), violation.hint);
 }
 
 }  // namespace contact::cli

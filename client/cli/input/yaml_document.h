@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/input/diagnostic.h"
+#include "wire/rules/violation.h"
 
 namespace contact::cli {
 
@@ -39,8 +40,15 @@ std::string JoinPath(const std::string& path, const std::string& name);
 /// Finds the field with a path such as `bodies[0].mass_kg` in a document.
 FoundNode FindNode(const YAML::Node& root, const std::string& path);
 
+/// What a broken rule says of a field that the author has `given` or not: the rules look at
+/// messages, in which a required number that is 0 is one that is missing.
+std::string WordsOf(const Violation& violation, bool given);
+
 /// A mistake at a place of the document that is called `source`.
 Diagnostic DiagnosticAt(std::string source, const YAML::Mark& mark, std::string field,
                         std::string what, std::string hint);
+
+/// A broken rule, or advice, where its field stands in a document, or would stand.
+Diagnostic DiagnosticIn(const YAML::Node& root, std::string source, const Violation& violation);
 
 }  // namespace contact::cli
