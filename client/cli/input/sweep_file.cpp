@@ -28,7 +28,7 @@ namespace {
 class SweepFile {
  public:
   // `shipped`: its base is a template, not a file.
-  SweepFile(std::string path, VariableValues variables, bool shipped = false)
+  SweepFile(std::string path, VariableValues variables, bool shipped)
       : path_(std::move(path)),
         variables_(std::move(variables)),
         shipped_(shipped),
@@ -166,28 +166,25 @@ class SweepFile {
   std::vector<Diagnostic> advice_;  ///< On the file's own variables.
 };
 
-}  // namespace
-
-v1::Sweep OpenSweep(const std::string& path, const VariableValues& variables) {
-  return ReadSweep(path, ReadYaml(path), variables);
-}
-
-v1::Sweep ReadSweep(const std::string& path, const std::string& text,
-                    const VariableValues& variables) {
-  return SweepFile(path, variables).Read(text);
-}
-
-v1::Sweep OpenSweepTemplate(const std::string& name, const VariableValues& variables) {
-  return SweepFile(name, variables, true).Read(std::string(FindTemplate(name).text));
-}
-
-bool IsSweep(const std::string& text) {
+// True if a document is a mapping with this key.
+bool Has(const std::string& text, const char* key) {
   try {
     const YAML::Node root = LoadYaml(text).first;
-    return root.IsMap() && (root["base"].IsDefined() || root["axes"].IsDefined());
+    return root.IsMap() && root[key].IsDefined();
   } catch (const YAML::Exception&) {
     return false;
   }
 }
+
+}  // namespace
+
+v1::Sweep ReadSweep(const std::string& path, const std::string& text,
+                    const VariableValues& variables, bool shipped) {
+  return SweepFile(path, variables, shipped).Read(text);
+}
+
+bool IsSweep(const std::string& text) { return Has(text, "base") || Has(text, "axes"); }
+
+bool IsScenario(const std::string& text) { return !IsSweep(text) && Has(text, "bodies"); }
 
 }  // namespace contact::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "cli/base/interrupt.h"
@@ -11,6 +12,7 @@
 #include "cli/input/grid_sweep.h"
 #include "cli/input/sweep_file.h"
 #include "cli/input/templates.h"
+#include "cli/input/yaml_document.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
 #include "cli/settings/column_choice.h"
@@ -92,6 +94,20 @@ ExitCode Follow(Client& client, const std::string& name, const SweepArguments& a
   return CodeOf(job);
 }
 
+// Throws Failure (kUsage) for a scenario without axes of --grid, and for a sweep with them.
+void RequireAxesOnce(const std::string& text, const SweepArguments& arguments) {
+  const bool grid = !arguments.grid.empty();
+  if (!(grid ? IsSweep(text) : IsScenario(text))) return;
+  const std::string name = arguments.shipped.empty() ? arguments.file : "-t " + arguments.shipped;
+  throw Failure(
+      ExitCode::kUsage,
+      grid ? fmt::format("{} is a sweep, with axes of its own; --grid gives axes to a scenario",
+                         name)
+           : fmt::format("{0} is a scenario: `contactctl run {0}` solves it, `contactctl sweep run "
+                         "{0} --grid FIELD=VALUES` many of it",
+                         name));
+}
+
 // The sweep of a sweep file, or with --grid the scenario of the file with these axes.
 v1::Sweep Open(const SweepArguments& arguments) {
   const VariableValues variables = ParseVariables(arguments.variables);
@@ -99,16 +115,18 @@ v1::Sweep Open(const SweepArguments& arguments) {
   if (arguments.file.empty() == shipped.empty()) {
     throw Failure(ExitCode::kUsage, "give a FILE or --template NAME, one of them");
   }
+  const std::string text =
+      shipped.empty() ? ReadYaml(arguments.file) : std::string(FindTemplate(shipped).text);
+  RequireAxesOnce(text, arguments);
   if (arguments.grid.empty()) {
-    return shipped.empty() ? OpenSweep(arguments.file, variables)
-                           : OpenSweepTemplate(shipped, variables);
+    return ReadSweep(shipped + arguments.file, text, variables, !shipped.empty());
   }
   const DrawnCells drawn{.count = std::max(arguments.random, arguments.latin_hypercube),
                          .latin_hypercube = arguments.latin_hypercube > 0,
                          .seed = arguments.seed};
-  const auto base = shipped.empty()
-                        ? ScenarioFile::Open(arguments.file, variables)
-                        : ScenarioFile(shipped, std::string(FindTemplate(shipped).text), variables);
+  const bool piped = arguments.file == "-";
+  const ScenarioFile base(piped ? "<stdin>" : shipped + arguments.file, text, variables,
+                          std::filesystem::path(arguments.file).parent_path().string());
   return MakeGrid(base, arguments.grid, arguments.map.metrics(), drawn);
 }
 

@@ -127,6 +127,9 @@ TEST_F(SweepFileTest, BaseOrAxesTellASweepFromAScenario) {
   EXPECT_FALSE(IsSweep(kBase));
   EXPECT_FALSE(IsSweep("- base\n"));
   EXPECT_FALSE(IsSweep("base: [\n"));
+  EXPECT_TRUE(IsScenario(kBase));
+  EXPECT_FALSE(IsScenario("base: a.yaml\nbodies: []\n"));
+  EXPECT_FALSE(IsScenario("metrics: [steps]\n"));
 }
 
 }  // namespace

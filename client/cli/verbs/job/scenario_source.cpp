@@ -106,7 +106,7 @@ ScenarioSource::Spec ScenarioSource::ReadJob(Client& client) const {
 
 ScenarioSource::Spec ScenarioSource::ReadTemplate() const {
   const std::string text(FindTemplate(template_).text);
-  if (IsSweep(text)) return OpenSweepTemplate(template_, ParseVariables(variables_));
+  if (IsSweep(text)) return ReadSweep(template_, text, ParseVariables(variables_), true);
   return ScenarioFile(template_, text, ParseVariables(variables_));
 }
 
