@@ -24,6 +24,7 @@
 #include "address.h"
 #include "base/ids.h"
 #include "base/memory_limit.h"
+#include "base/spelling.h"
 #include "flags.h"
 #include "storage/postgres/postgres_store.h"
 #include "version.h"
@@ -366,6 +367,24 @@ Config Defaults() {
   return config;
 }
 
+// What the parser says, or of a word that it does not know the nearest one that it does.
+std::string WhatIsWrong(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> extras = app.remaining(true);
+  if (extras.empty()) return error.what();
+  const bool flag = extras.front().starts_with("-");
+  std::vector<std::string> known;
+  if (flag) {
+    for (const CLI::Option* option : app.get_options()) {
+      known.push_back("--" + option->get_lnames().front());
+    }
+  } else {
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  }
+  return WithHint(
+      fmt::format("unknown {} {}", flag ? "flag" : "command", Quoted(extras.front())),
+      DidYouMean(extras.front().substr(0, extras.front().find('=')), {known.begin(), known.end()}));
+}
+
 }  // namespace
 
 std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
@@ -404,8 +423,8 @@ std::variant<Config, Exit> ReadConfig(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     return Exit{kExitOk, fmt::format("{}\n", version.what())};
   } catch (const CLI::ParseError& error) {
-    return Exit{kExitUsage,
-                fmt::format("contactd: {}\nRun contactd --help for the settings.\n", error.what())};
+    return Exit{kExitUsage, fmt::format("contactd: {}\nRun contactd --help for the settings.\n",
+                                        WhatIsWrong(app, error))};
   }
   return config;
 }

@@ -32,6 +32,13 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+// Without what parts words: `three-ball` is `threeball`.
+std::string Letters(std::string_view name) {
+  std::string letters(name);
+  std::erase_if(letters, [](char c) { return c == '-' || c == '_'; });
+  return letters;
+}
+
 // Characters of UTF-8 that are not printable: a prefix and the range of the byte after it.
 struct Unprintable {
   std::string_view prefix;
@@ -69,9 +76,10 @@ std::string_view Nearest(std::string_view name, const std::vector<std::string_vi
   if (name.empty() || name.size() > kLongest) return {};
   std::string_view nearest;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  const std::string letters = Letters(name);
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kLongest) continue;
-    const bool begins = name.size() >= 3 && candidate.starts_with(name);
+    const bool begins = letters.size() >= 3 && Letters(candidate).starts_with(letters);
     const std::size_t distance = begins ? 1 : EditDistance(name, candidate);
     if (distance >= least || 2 * distance > std::max(name.size(), candidate.size())) continue;
     least = distance;

@@ -9,9 +9,9 @@
 namespace contact {
 
 /// The candidate that `name` is most likely a misspelling of; empty if none is near. Near is one
-/// that begins with `name`, or that a few edits turn into it: up to a third of its letters, at
-/// least 2, at most half. The first of equally near ones. Names of more than 64 bytes are near
-/// nothing. The result is one of `candidates`, not a copy.
+/// that begins with `name`, whatever `-` and `_` are in the two, or that a few edits turn into it:
+/// up to a third of its letters, at least 2, at most half. The first of equally near ones. Names of
+/// more than 64 bytes are near nothing. The result is one of `candidates`, not a copy.
 std::string_view Nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
 /// The hint `did you mean 'x'?` with the candidate nearest to `name`, or `otherwise` if none is

@@ -22,6 +22,13 @@ TEST(Spelling, BeginningOfAFieldIsNear) {
   EXPECT_EQ(Nearest("ve", {"position_m", "velocity_m_per_s"}), "");
 }
 
+TEST(Spelling, WhatPartsWordsIsNoDifference) {
+  EXPECT_EQ(Nearest("threeball", {"two-balls", "three-ball-chain"}), "three-ball-chain");
+  EXPECT_EQ(Nearest("peakForce", {"peak_stress"}), "");
+  EXPECT_EQ(Nearest("peak-force", {"delta_max_m", "peak_force_n"}), "peak_force_n");
+  EXPECT_EQ(Nearest("---", {"--server"}), "");
+}
+
 TEST(Spelling, NothingIsNearWhatIsFar) {
   EXPECT_EQ(Nearest("colour", {"restitution", "stiffness", "mass_kg"}), "");
   EXPECT_EQ(Nearest("X", {"B1", "B2"}), "");

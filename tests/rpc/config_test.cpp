@@ -286,6 +286,13 @@ TEST_F(ConfigTest, UnknownKeyInTheFileIsRefused) {
   EXPECT_THAT(exit.text, HasSubstr("wrokers"));
 }
 
+TEST_F(ConfigTest, UnknownWordIsRefusedWithTheNearestOne) {
+  EXPECT_THAT(Bad({"--lisen", "127.0.0.1:0"}).text,
+              HasSubstr("unknown flag '--lisen' — did you mean '--listen'?"));
+  EXPECT_THAT(Bad({"--datadir=x"}).text, HasSubstr("did you mean '--data-dir'?"));
+  EXPECT_THAT(Bad({"fskc"}).text, HasSubstr("unknown command 'fskc' — did you mean 'fsck'?"));
+}
+
 TEST_F(ConfigTest, MissingFileIsRefused) {
   EXPECT_EQ(Bad({"--config", "/nowhere/contactd.conf"}).code, kExitUsage);
 }

@@ -208,6 +208,18 @@ TEST(SweepAxes, MistakesAreToldTogether) {
           "cycles_cut"));
 }
 
+TEST(SweepCodecTest, NumberOfACycleOrBodyIsNamedWithItsList) {
+  for (const auto& [metric, hint] : std::vector<std::pair<std::string, std::string>>{
+           {"peak_force", "'cycles.max.peak_force_n', or cycles[NAME].last.peak_force_n of one?"},
+           {"velocity", "'final_bodies.max.velocity_m_per_s', or final_bodies[NAME].last."},
+           {"iteration", "'iterations'?"},
+           {"contact", "fields are steps, "}}) {
+    v1::Sweep sweep = Grid();
+    sweep.set_metrics(0, metric);
+    EXPECT_THAT(Mistakes(sweep), ElementsAre(HasSubstr(hint)));
+  }
+}
+
 TEST(SweepBase, IsCheckedWithTheFirstCell) {
   v1::Sweep sweep = Grid();
   sweep.mutable_base()->mutable_contacts(0)->clear_restitution();  // The axis gives it.

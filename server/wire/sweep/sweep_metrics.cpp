@@ -34,6 +34,15 @@ bool IsOfCycles(const FieldDescriptor& field) {
   return std::ranges::find(kOfCycles, field.name()) != kOfCycles.end();
 }
 
+// The number whose name is nearest to a word; null if none is near.
+const FieldDescriptor* FindNear(const Descriptor& type, std::string_view word) {
+  std::vector<std::string_view> names;
+  for (int i = 0; i < type.field_count(); ++i) {
+    if (IsNumber(*type.field(i))) names.push_back(type.field(i)->name());
+  }
+  return type.FindFieldByName(std::string(Nearest(word, names)));
+}
+
 bool IsListOfReals(const FieldDescriptor& field) {
   return field.is_repeated() && field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
 }
@@ -61,6 +70,20 @@ std::vector<PathStep> Whole(std::vector<PathStep> path) {
     path.insert(path.begin(), PathStep{.name = "summary"});
   }
   return path;
+}
+
+// Hint for a field that `type` has not. What somebody takes for a number of the whole result may be
+// one of each cycle, group or body.
+std::string MetricHint(const Descriptor& type, const std::string& name) {
+  if (&type != v1::RunSummary::descriptor() || FindNear(type, name)) return FieldHint(type, name);
+  for (const char* list : {"cycles", "groups", "final_bodies"}) {
+    const Descriptor& entry = *v1::Job::descriptor()->FindFieldByName(list)->message_type();
+    const FieldDescriptor* near = FindNear(entry, name);
+    if (near == nullptr) continue;
+    return fmt::format("did you mean '{0}.max.{1}', or {0}[NAME].last.{1} of one?", list,
+                       near->name());
+  }
+  return FieldHint(type, name);
 }
 
 std::string RootHint() {
@@ -102,7 +125,7 @@ SweepMetrics::Path SweepMetrics::Follow(std::span<const PathStep> steps, const s
     const FieldDescriptor* field = type == nullptr ? nullptr : type->FindFieldByName(step.name);
     if (field == nullptr) {
       rules.Break("", fmt::format("{}: unknown field {}", Quoted(text), Quoted(step.name)),
-                  type == nullptr ? "" : FieldHint(*type, step.name));
+                  type == nullptr ? "" : MetricHint(*type, step.name));
       return path;
     }
     steps = steps.subspan(1);

@@ -46,6 +46,29 @@ class LocalRefusals(CliTest):
     def test_grid_that_is_no_assignment(self):
         self.assertIn("--grid", self.refused("sweep", "run", CHAIN, "--grid", "restitution"))
 
+    def test_zero_is_told_as_what_was_given(self):
+        self.assertIn("--set: end_time_s: is 0; must be in (0, 1e6]",
+                      self.refused("run", CHAIN, "--set", "end_time_s=0", code=3))
+
+    def test_template_that_is_not_there_is_told_with_the_nearest_one(self):
+        for verb in ["run"], ["sweep", "run"], ["submit"]:
+            self.assertIn("did you mean 'three-ball-chain'?", self.refused(*verb, "-t", "threeball"))
+
+    def test_scenario_and_sweep_are_not_taken_for_each_other(self):
+        for source in ([CHAIN], ["-t", "two-balls"]):
+            said = self.refused("sweep", "run", *source)
+            name = " ".join(map(str, source))
+            self.assertIn(f"{name} is a scenario: `contactctl run {name}` solves it", said)
+            self.assertIn(f"`contactctl sweep run {name} --grid FIELD=VALUES` many of it", said)
+        for source in ([TABLE_3], ["-t", "table-3-sweep"]):
+            self.assertIn("is a sweep, with axes of its own",
+                          self.refused("sweep", "run", *source, "--grid", "bodies[0].mass_kg=1,2"))
+
+    def test_metric_of_a_cycle_is_told_with_its_list(self):
+        self.assertIn("did you mean 'cycles.max.peak_force_n', or cycles[NAME].last.peak_force_n",
+                      self.refused("sweep", "run", CHAIN, "--grid", "contacts[*].restitution=0.7,0.8",
+                                   "--metric", "peak_force", code=3))
+
     def test_flags_of_a_scenario_are_not_those_of_a_sweep(self):
         self.assertIn("--set is for scenarios; a sweep has axes",
                       self.refused("validate", SCENARIOS / "table-3-sweep.yaml", "--set",
@@ -93,6 +116,14 @@ class RefusalsOfAServer(CliTest):
     def test_time_range_that_is_empty(self):
         self.assertIn("end_time_s", self.refused("series", self.job, "--from", "2e-3", "--to",
                                                  "1e-3", code=2))
+
+    def test_job_that_has_ended_is_not_cancelled(self):
+        for _ in range(2):
+            printed, said = self.run_it("cancel", self.job)
+            self.assertEqual((printed, said), (
+                f"{self.job}  SUCCEEDED\n", f"{self.job} has ended, so there is nothing to cancel\n"))
+        running = self.submit_long()
+        self.assertEqual(self.run_it("cancel", running)[1], "")
 
     def test_labels_and_request_ids_that_break_a_rule(self):
         self.assertIn("request_id", self.refused("submit", CHAIN, "--request-id", "x" * 200,
