@@ -9,6 +9,7 @@
 #include "cli/base/message.h"
 #include "cli/link/connect.h"
 #include "cli/link/jobs.h"
+#include "cli/link/watch.h"
 #include "cli/settings/column_choice.h"
 #include "cli/settings/options.h"
 #include "cli/text/convergence.h"
@@ -52,7 +53,10 @@ ExitCode Describe(const DescribeArguments& arguments, const Settings& settings) 
 ExitCode Cancel(const std::string& job, const Settings& settings) {
   settings.RequireOutput({OutputFormat::kTable, OutputFormat::kJson, OutputFormat::kName});
   Client client = Connect(settings);
-  const v1::Job answer = CancelJob(client, FindJob(client, job));
+  const std::string name = FindJob(client, job);
+  const bool ended = IsFinal(GetJob(client, name).state());
+  const v1::Job answer = CancelJob(client, name);
+  if (ended) Tell("{} has ended, so there is nothing to cancel\n", name);
   if (settings.output != OutputFormat::kTable) {
     PrintJob(answer, settings);
   } else if (answer.state() == v1::Job::RUNNING) {
