@@ -125,6 +125,9 @@ v1::Job GetSweep(Client& client, const std::string& job) {
 
 v1::Job JobSource::Get(const std::string& name) {
   if (std::filesystem::is_regular_file(name)) return ReadJob(name);
+  if (name.find('.') != std::string::npos) {  // No ID has one.
+    throw Failure(ExitCode::kLocal, fmt::format("there is no file {}", name));
+  }
   if (!client_) client_.emplace(Connect(settings_));
   return GetJob(*client_, FindJob(*client_, name));
 }

@@ -43,8 +43,9 @@ class JobSource {
   /// Connects when a job of the server is first asked for. `settings` must outlive this object.
   explicit JobSource(const Settings& settings) : settings_(settings) {}
 
-  /// `name` is a file if there is one of that name, else what FindJob takes. Throws Failure:
-  /// kInvalidScenario if the file holds no job, or what FindJob and the server answer.
+  /// `name` is a file if there is one of that name, or if it has a dot, else what FindJob takes.
+  /// Throws Failure: kLocal if there is no such file, kInvalidScenario if it holds no job, or what
+  /// FindJob and the server answer.
   v1::Job Get(const std::string& name);
 
  private:

@@ -99,6 +99,9 @@ class CompareTest(CliTest):
     def test_wrong_uses_are_told(self):
         self.run_it("compare", self.a, code=2)
         self.run_it("compare", self.a, "nix", code=6)
+        for jobs in (self.a, "nofile.csv"), ("nofile.csv", self.a), (self.a, "runs/b.json"):
+            said = self.run_it("compare", *jobs, code=11)[1]
+            self.assertRegex(said, r"there is no file (nofile\.csv|runs/b\.json)\n")
         _, said = self.run_it("sweep", "run", SCENARIOS / "table-3-sweep.yaml")
         self.run_it("compare", self.a, said.split()[0], code=2)
 
