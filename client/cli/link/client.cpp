@@ -64,10 +64,29 @@ bool IsOtherProtocol(std::string_view message) {
   return Contains(message, "parsing HTTP/2") || Contains(message, "http1.x");
 }
 
+constexpr std::string_view kUnknownName = "nobody knows an address of this name";
+
+// True if gRPC, or a message of ours, says that the name of the host has no address.
+bool IsUnknownName(std::string_view message) {
+  return Contains(message, "C-ares") || Contains(message, "DNS resolution") ||
+         Contains(message, kUnknownName);
+}
+
+// What helps a user who cannot reach a server of the network; empty for one of this machine.
+std::string HostAdvice(const std::string& server, std::string_view words) {
+  const std::string host = server.substr(0, server.rfind(':'));
+  if (IsUnknownName(words)) return fmt::format("look for a misprint; getent hosts {}", host);
+  if (host.starts_with("127.") || host == "localhost" || host == "[::1]") return "";
+  return fmt::format(
+      "see whether contactd runs there; one that listens on its loopback only is at\n"
+      "                   127.0.0.1:7070 here with ssh -N -L 7070:127.0.0.1:7070 {}",
+      host);
+}
+
 // A line that says how to have a server at this address; empty where something else is.
 std::string HelpAt(const std::string& server, const std::string& message) {
   if (IsOtherProtocol(message)) return "";
-  const std::string advice = SocketAdvice(server, message);
+  const std::string advice = ServerAdvice(server, message);
   if (!advice.empty()) return fmt::format("  what helps:      {}\n", advice);
   return fmt::format("  start one here:  contactd --listen {} --data-dir DIR\n", server);
 }
@@ -150,11 +169,12 @@ void RequireAddress(const std::string& server) {
 
 std::string TransportWords(const std::string& message) {
   if (Contains(message, "Connection refused")) return "connection refused";
+  if (IsUnknownName(message)) return std::string(kUnknownName);
   return IsOtherProtocol(message) ? "what answers there does not speak gRPC" : message;
 }
 
-std::string SocketAdvice(const std::string& server, const std::string& words) {
-  if (!server.starts_with("unix:")) return "";
+std::string ServerAdvice(const std::string& server, const std::string& words) {
+  if (!server.starts_with("unix:")) return HostAdvice(server, words);
   const bool packaged = server.starts_with("unix:/run/contactd/");
   if (Contains(words, "Permission denied")) {
     return packaged ? "sudo adduser \"$USER\" contact, then log in again"

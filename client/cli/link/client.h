@@ -16,10 +16,10 @@ namespace contact::cli {
 /// What gRPC says about a connection that failed, in few words where they are known.
 std::string TransportWords(const std::string& message);
 
-/// What helps a user who cannot reach the server at a socket file; empty if nothing is known, such
-/// as for an address of the network. `words`: the error of the connection, with the system's
-/// reason.
-std::string SocketAdvice(const std::string& server, const std::string& words);
+/// What helps a user who cannot reach a server at a socket file or on another machine; empty if
+/// nothing is known, such as for a port of this machine. `words`: the error of the connection, with
+/// the system's reason.
+std::string ServerAdvice(const std::string& server, const std::string& words);
 
 /// A call that the server, or the way to it, refused.
 class CallFailure : public Failure {

@@ -70,7 +70,7 @@ void LookAtServer(const Settings& settings, Findings* findings) {
   } catch (const Failure& failure) {
     const std::string text = failure.what();
     const bool refused = failure.code() == ExitCode::kUnreachable;
-    const std::string advice = refused ? SocketAdvice(settings.server, text) : "";
+    const std::string advice = refused ? ServerAdvice(settings.server, text) : "";
     findings->push_back({"server", text.substr(0, text.find('\n')),
                          !advice.empty()
                              ? advice
