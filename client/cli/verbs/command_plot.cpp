@@ -17,7 +17,7 @@ namespace {
 
 struct PlotArguments {
   std::string job;
-  std::string preset;
+  std::vector<std::string> presets;
   std::string file;
   const CLI::App* command = nullptr;
 };
@@ -35,28 +35,28 @@ const std::vector<std::string>& PresetNames() {
 
 void RequireOneSubject(const PlotArguments& arguments) {
   const bool channels = arguments.command->get_option("--channels")->count() > 0;
-  if (arguments.preset.empty() == channels) return;
+  if (arguments.presets.empty() == channels) return;
   throw Failure(
       ExitCode::kUsage,
-      arguments.preset.empty()
+      arguments.presets.empty()
           ? fmt::format("say what to draw: {}, or --channels", fmt::join(PresetNames(), ", "))
           : "PRESET and --channels do not go together: either says what to draw");
 }
 
 ExitCode Plot(const PlotArguments& arguments, const Settings& settings) {
   RequireOneSubject(arguments);
-  const std::string& preset = arguments.preset;
+  const std::string name = fmt::format("{}", fmt::join(arguments.presets, "-"));
   std::vector<std::string> words = {"plot"};
   const auto add = [&words](const std::vector<std::string>& more) {
     words.insert(words.end(), more.begin(), more.end());
   };
-  add(FigureWords(arguments.file, preset.empty() ? "channels" : preset, settings));
+  add(FigureWords(arguments.file, name.empty() ? "channels" : name, settings));
   add(GivenFlags(*arguments.command,
                  {"--channels", "--keep", "--contacts", "--from", "--to", "--style", "--size",
                   "--font", "--unit", "--log", "--no-title", "--no-provenance"}));
   Client client = Connect(settings);
   add({"--", FindJob(client, arguments.job)});
-  if (!preset.empty()) words.push_back(preset);
+  add(arguments.presets);
   BecomeContactsim(words, settings);
 }
 
@@ -81,9 +81,12 @@ void AddPart(CommandLine& line, CLI::App& command) {
 // How it looks.
 void AddLook(CommandLine& line, CLI::App& command) {
   CLI::Option* style = Add(command, "--style",
-                           "colour, or paper for print: black lines told apart by dashes, a "
-                           "column of 3.4 in, no title and no line below");
-  line.SetWords(style, {"colour", "paper"})->type_name("STYLE")->default_str("colour");
+                           "colour, or for print: paper, or the column and font of springer, "
+                           "elsevier, ieee or aps; black lines told apart by dashes, no title and "
+                           "no line below");
+  line.SetWords(style, {"colour", "paper", "springer", "elsevier", "ieee", "aps"})
+      ->type_name("STYLE")
+      ->default_str("colour");
   Add(command, "--size",
       "Width and height, such as 85x60mm, 8.5x6cm or, in inches, 3.4x2.5. Default: 8x5in, and "
       "8x7in for two panels")
@@ -115,7 +118,9 @@ void AddPlot(CommandLine& line, CLI::App& command) {
   auto arguments = std::make_shared<PlotArguments>();
   arguments->command = &command;
   AddJob(line, command, &arguments->job);
-  AddOption(line, command, "PRESET", &arguments->preset, PresetNames(), "What to draw")
+  line.SetWords(command.add_option("PRESET", arguments->presets,
+                                   "What to draw; several are panels (a), (b), … of one figure"),
+                PresetNames())
       ->type_name("");
   AddFigureFile(line, command, &arguments->file, "Where to. Default: PRESET.svg; txt is printed");
   CLI::Option* channels = Add(command, "--channels",

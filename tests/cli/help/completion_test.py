@@ -10,6 +10,7 @@ import unittest
 
 from cli_case import CHAIN, CONTACTCTL, SCENARIOS, CliTest, read_until
 from contactd import PATIENCE_S
+from contactsim.figures.look import PRINT
 
 
 class CompletionTest(CliTest):
@@ -69,7 +70,8 @@ class CompletionTest(CliTest):
         self.assertEqual(self.offered("run", "-t", "newt")[0], ["newton-cradle"])
         self.assertEqual(self.offered("run", "")[1], ":scenarios")
         self.assertEqual(self.offered("plot", "--keep", "")[1], ":directories")
-        self.assertEqual(self.offered("plot", "x", "--style", "")[0], ["colour", "paper"])
+        self.assertEqual(self.offered("plot", "x", "--style", "")[0], ["colour", *PRINT])
+        self.assertEqual(self.offered("plot", "x", "force", "hy")[0], ["hysteresis"])
         self.assertEqual(self.offered("plot", "x", "force", "-o", "s")[0], ["svg"])
 
     def test_fields_are_those_of_the_scenario_named(self):

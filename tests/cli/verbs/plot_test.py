@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 from cli_case import CHAIN, SCENARIOS, CliTest
 from contactd import PATIENCE_S
+from contactsim.figures.look import PRINT
 
 
 class PlotTest(CliTest):
@@ -85,6 +86,20 @@ class PlotTest(CliTest):
             self.assertIn(seen, look)
         for wrong in (("--unit", "kg"), ("--size", "big"), ("--font", "'"), ("--style", "nice")):
             self.plot("force", "x.svg", *wrong, code=2)
+
+    def test_styles_for_print_are_those_of_contactsim(self):
+        for style, (inches, _, _) in PRINT.items():
+            width = float(re.search(r'<svg [^>]*width="([0-9.]+)pt"',
+                                    self.plot("force", "s.svg", "--style", style).decode())[1])
+            self.assertAlmostEqual(width, 72 * inches, places=4)
+
+    def test_several_presets_are_panels_with_letters_of_one_figure(self):
+        run = subprocess.run(self.command("plot", self.name, "force", "hysteresis"),
+                             cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual((run.returncode, run.stdout), (0, "force-hysteresis.svg\n"), run.stderr)
+        drawn = (self.folder / "force-hysteresis.svg").read_text("utf-8")
+        self.assertEqual(re.findall(r">\(([a-z])\)</text>", drawn), ["a", "b"])
+        self.assertIn("did you mean 'energy'?", self.plot("force", "x.svg", "enrgy", code=2))
 
     def test_loops_of_a_short_contact_are_smooth_without_many_samples(self):
         few = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}", "--set",
