@@ -97,8 +97,12 @@ TEST(RpcRequestTest, TypesThatTheMethodHasNotAreRefusedWithTheOnesItHas) {
     const HttpAnswer answer = Refusal(Post(kGet, type, "{}"));
     EXPECT_EQ(answer.status, 415) << type;
     EXPECT_THAT(answer.headers, Contains(Key("accept-post")));
+    EXPECT_THAT(answer.body, HasSubstr("GetJob must be application/json, application/proto or"));
+    EXPECT_THAT(answer.body, HasSubstr(std::string("and is '") + type + "'"));
   }
-  EXPECT_EQ(Refusal(Post(kWatch, "application/json", "{}")).status, 415);
+  const HttpAnswer stream = Refusal(Post(kWatch, "application/json", "{}"));
+  EXPECT_EQ(stream.status, 415);
+  EXPECT_THAT(stream.body, HasSubstr("application/connect+json, application/connect+proto or"));
 }
 
 TEST(RpcRequestTest, OnlyMethodsWithoutSideEffectsAreAGet) {

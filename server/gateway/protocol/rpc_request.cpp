@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/spelling.h"
 #include "gateway/protocol/codec.h"
 #include "gateway/protocol/frames.h"
 
@@ -27,9 +28,17 @@ HttpAnswer WithHeader(HttpAnswer answer, const char* name, std::string value) {
   return answer;
 }
 
-HttpAnswer WrongType() {
-  return WithHeader(PlainAnswer(415, "the method has no such content type"), "accept-post",
-                    kAcceptPost);
+// Names what this method is called with; the header has all that there are.
+HttpAnswer WrongType(const HttpRequest& request, const MethodDescriptor& method) {
+  const char* connect = method.server_streaming() ? "connect+" : "";
+  const std::string words =
+      request.method == "GET"
+          ? "encoding in the query must be json or proto"
+          : fmt::format(
+                "the content-type of {} must be application/{}json, application/{}proto or "
+                "one of gRPC-Web, and is {}",
+                method.name(), connect, connect, Quoted(request.header("content-type")));
+  return WithHeader(PlainAnswer(415, words), "accept-post", kAcceptPost);
 }
 
 // A deadline past this one is as good as none, and no clock overflows with it.
@@ -185,7 +194,7 @@ std::variant<RpcRequest, HttpAnswer> ReadRpc(const HttpRequest& request) {
                       AllowedMethods(request));
   }
   const auto dialect = DialectOfRequest(request);
-  if (!dialect || !Fits(*dialect, *call.method)) return WrongType();
+  if (!dialect || !Fits(*dialect, *call.method)) return WrongType(request, *call.method);
   call.dialect = *dialect;
   Status status = call.method->client_streaming() ? Unimplemented("clients cannot stream here")
                                                   : ReadHead(request, &call);
