@@ -1,6 +1,7 @@
 // What the pages show and choose among, in a real browser against a real contactd.
 
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
 import {after, afterEach, before, beforeEach, test} from 'node:test';
 
 import {CHAIN, openBrowser, openPage, Server, swinging, until} from './harness.mjs';
@@ -219,6 +220,13 @@ test('the ledger shows what its filters choose', async () => {
   await ledger.getByLabel('Status').selectOption('CONVERGED');
   await hold(() => ofAddress('status') === 'CONVERGED');
   assert.equal(await rows.count(), 1);
+});
+
+test('the ledger names larger μ that solve a group, too', async () => {
+  const id = await server.submit(JSON.parse(readFileSync(new URL('../reference/cases/f4-two-answers-press40024-a.json', import.meta.url), 'utf8')));
+  await server.ended(id);
+  await open(`/runs/${id}?ledger=groups`);
+  await hold(async () => /\s5\d{7}\.\d+$/.test(await page.getByLabel('Cycle ledger').locator('tbody tr').first().innerText()));
 });
 
 test('a loop of a short contact in a long run is round', async () => {

@@ -53,6 +53,7 @@ const GROUPS: Column<Group>[] = [
   {name: 't end [s]', of: (g) => exact(g.endTimeS)},
   {name: 'residual', of: (g) => exact(g.residual)},
   {name: 'reached', of: reachedOf, words: true},
+  {name: 'other μ', of: (g) => g.otherRoots.map((mu) => exact(mu)).join(', ')},
 ];
 
 function Status({status}: {status: Cycle_Status}) {
