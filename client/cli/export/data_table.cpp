@@ -81,8 +81,8 @@ constexpr Meaning kGroup[] = {
     {"too_much_restitution", "restitution at too_much_mu"},
     {"too_little_mu", "nearest mu that gave too little restitution"},
     {"too_little_restitution", "restitution at too_little_mu"},
-    {"other_roots", "larger mu that give that restitution, too"},
     {"beside_cut", "whether with a later end of the run its mu may be another"},
+    {"other_roots", "larger mu that give that restitution, too"},
 };
 
 // A pass of the search for μ, and

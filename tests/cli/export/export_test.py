@@ -14,7 +14,7 @@ import netCDF4
 import numpy as np
 import pandas
 import xarray
-from cli_case import CHAIN, CliTest
+from cli_case import CHAIN, REFERENCE, CliTest
 from contactd import PATIENCE_S
 
 
@@ -53,7 +53,7 @@ class ExportTest(CliTest):
                     self.assertRegex(name, r" \[[^]]+\]$")
                 else:
                     self.assertIn(name, ("contact", "kind", "end", "status", "growth", "update",
-                                         "name"))
+                                         "name", "other_roots [N·s/m^(n+1)]"))
 
     def test_every_number_of_the_ledger_is_exported(self):
         for table in ("cycles", "groups"):
@@ -68,8 +68,31 @@ class ExportTest(CliTest):
                         value = float("nan")
                     if field.enum_type:
                         value = field.enum_type.values_by_number[value].name
-                    given = text if isinstance(value, str) else float(text)
+                    given = text
+                    if field.label == field.LABEL_REPEATED:
+                        given, value = [float(number) for number in text.split()], list(value)
+                    elif not isinstance(value, str):
+                        given = float(text)
                     np.testing.assert_equal(given, value)  # NaN equals NaN.
+
+    def test_larger_roots_of_a_group_are_in_every_form(self):
+        case = REFERENCE.parent / "cases/f4-two-answers-press40024-a.json"
+        name = self.run_it("run", case, "-o", "name")[0].strip()
+        root, = self.server.get(name).groups[0].other_roots
+        self.assertIn(f"so has {root:.6g}", self.run_it("describe", name)[0])
+        header = "other_roots [N·s/m^(n+1)]"
+        text = self.run_it("export", name, "-o", "csv", "--table", "groups")[0]
+        self.assertEqual(pandas.read_csv(io.StringIO(text))[header][0], root)
+        row = json.loads(self.run_it("export", name, "-o", "jsonl", "--table", "groups")[0].split("\n")[0])
+        self.assertEqual(float(row[header]), root)
+        self.run_it("artifact", "get", name, "groups.csv", "-f", self.folder / "groups.csv")
+        self.assertEqual(pandas.read_csv(self.folder / "groups.csv")[header][0], root)
+        self.run_it("export", name, "-f", self.folder / "roots.nc")
+        with netCDF4.Dataset(self.folder / "roots.nc") as file:
+            self.assertEqual(float(file["groups/other_roots"][0]), root)
+        self.run_it("report", name, "-f", self.folder / "r.html")
+        self.assertIn(f"{root:.6e}", (self.folder / "r.html").read_text("utf-8"))
+        self.run_it("compare", name, name)
 
     def test_every_csv_of_a_job_names_a_column_alike(self):
         def read(file):
