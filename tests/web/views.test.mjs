@@ -112,6 +112,28 @@ test('runs are grouped by a label, which stands in the address, and are saved as
   await hold(async () => (await heads.allInnerTexts()).join() === 'Grouped, "so", 4');
 });
 
+test('a run is renamed on its page, and pinned at the top of the list until it is unpinned', async () => {
+  const first = await server.submit({...BALL, title: 'Ball one'});
+  await server.submit({...BALL, title: 'Ball two'});
+  await open(`/runs/${first}`);
+  await page.getByRole('button', {name: 'Rename, add labels or a note'}).click();
+  await page.getByRole('textbox', {name: 'Title'}).fill('Ball named');
+  await page.getByRole('button', {name: 'Store'}).click();
+  await page.getByRole('heading', {name: 'Ball_named'}).waitFor();
+  await hold(async () => await page.title() === 'Ball_named · contactd');
+  const labels = async () => (await server.call('GetJob', {name: `jobs/${first}`})).labels;
+  assert.deepEqual(await labels(), {title: 'Ball_named'});
+  await open(`/runs?q=ball&sort=title&chosen=${first}`);
+  const order = async () => (await page.locator('.runs td.title a').allInnerTexts()).filter((text) => /^Ball (two)|Ball_/.test(text)).join();
+  await hold(async () => await order() === 'Ball two,Ball_named');
+  await page.getByRole('button', {name: 'Pin 1 run'}).click();
+  await hold(async () => await order() === 'Ball_named,Ball two');
+  await page.reload();
+  await page.getByRole('button', {name: 'Unpin 1 run'}).click();
+  await hold(async () => await order() === 'Ball two,Ball_named');
+  assert.deepEqual(await labels(), {title: 'Ball_named'});
+});
+
 test('a note is written on the page of a run, stays while it is not stored, and stands in the list', async () => {
   const id = await server.submit({...BALL, title: 'Noted'});
   await open(`/runs/${id}`);

@@ -12,12 +12,13 @@ import {asCli, asCurl, asPython, sweepAsPython} from '../src/model/copy_as';
 import {MOST_MARKED, unmarked} from '../src/model/curves';
 import {flatten, setField} from '../src/model/field_path';
 import {bracketOf, iterationPanels, newestEpisode, nextOf, passesOf} from '../src/model/iterations';
-import {bestOf, chosenOf, JobList, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
+import {bestOf, chosenOf, grouped, groupOf, JobList, labelKeys, labelsOf, METRICS, matches, statesOf} from '../src/model/job_list';
 import {fieldsOf, varyingFields} from '../src/model/job_fields';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv, travel} from '../src/model/panel';
 import {PRESETS} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
+import {titleOf} from '../src/model/remarks';
 import {emptyRun, MOST_ITERATIONS, takeEvents} from '../src/model/runState';
 import {axisValues, cellIndex, viridis} from '../src/model/sweep';
 import {yRange} from '../src/plots/range';
@@ -182,6 +183,13 @@ describe('the list of jobs', () => {
     expect(list.sorted().map(({name}) => name)).toEqual(['x']);
     take({gone: ['x'], snapshotComplete: true});
     expect(list.sorted()).toEqual([]);
+  });
+  it('begins with what is pinned, then has groups, and calls runs by the label title', () => {
+    const named = (name: string, labels: Record<string, string>) => create(JobSchema, {name, title: 'T', labels});
+    const jobs = [named('a', {}), named('b', {title: 'B', pin: '1'}), named('c', {title: 'A'}), named('d', {pin: ''})];
+    const order = (by: string) => grouped(jobs, by).map(({name}) => name).join('');
+    expect([order(''), order('title'), groupOf(jobs[1]!, 'title'), groupOf(jobs[2]!, 'title')]).toEqual(['bdac', 'bdca', 'pinned', 'A']);
+    expect([jobs.map(titleOf), labelKeys(jobs), matches(jobs[1]!, 't')]).toEqual([['T', 'B', 'A', 'T'], ['title'], true]);
   });
   it('finds words in titles and labels', () => {
     expect([matches(job('x', 1n), 't a=b'), matches(job('x', 1n), 'q')]).toEqual([true, false]);

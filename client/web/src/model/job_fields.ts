@@ -7,6 +7,7 @@ import {ScenarioSchema} from '../api/generated/contact/v1/scenario_pb';
 import {flatten} from './field_path';
 import type {Metric} from './job_list';
 import {csvField} from './panel';
+import {titleOf} from './remarks';
 
 /** Values by their paths; those of the base of a sweep. */
 export type Fields = Map<string, string>;
@@ -26,7 +27,7 @@ export function varyingFields(all: Fields[]): string[] {
 /** A list of jobs as CSV: what it shows of each, with the fields that are known. */
 export function listCsv(jobs: Job[], metric: Metric, columns: string[], fields: Map<string, Fields>): string {
   const time = ({createTime}: Job) => (createTime ? new Date(Number(createTime.seconds) * 1000).toISOString() : '');
-  const rows = jobs.map((job) => [job.name, job.title, Job_State[job.state], Job_Convergence[job.convergence],
+  const rows = jobs.map((job) => [job.name, titleOf(job), Job_State[job.state], Job_Convergence[job.convergence],
     Object.entries(job.labels).map(([key, value]) => `${key}=${value}`).join(' '), job.note, ...columns.map((path) => fields.get(job.name)?.get(path) ?? ''),
     `${metric.of(job) ?? ''}`, time(job)]);
   return [['job', 'title', 'state', 'convergence', 'labels', 'note', ...columns, metric.label, 'created'], ...rows]

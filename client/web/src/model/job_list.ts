@@ -3,6 +3,7 @@
 import {Job_Convergence, Job_State, type Job} from '../api/generated/contact/v1/job_pb';
 import type {WatchJobsResponse} from '../api/generated/contact/v1/job_service_pb';
 import {epoch} from '../ui/times';
+import {PIN, titleOf} from './remarks';
 
 /** A number of a finished run that tells how good or dear it was. */
 export interface Metric {
@@ -66,7 +67,7 @@ export const NOT_CONVERGED = 'NOT_CONVERGED';
 
 /** True if all words are in the title, the name, the note or a label of the job. */
 export function matches(job: Job, words: string): boolean {
-  const text = [job.title, job.name, job.note, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
+  const text = [titleOf(job), job.title, job.name, job.note, ...Object.entries(job.labels).map(([k, v]) => `${k}=${v}`)]
     .join(' ').toLowerCase();
   return words.toLowerCase().split(/\s+/).every((word) => text.includes(word));
 }
@@ -91,17 +92,22 @@ export function chosenOf(jobs: Job[], {words, state, after, before}: Choice): Jo
 }
 
 /** The label keys of jobs, by which they are grouped. */
-export const labelKeys = (jobs: Job[]): string[] => [...new Set(jobs.flatMap(({labels}) => Object.keys(labels)))].sort();
+export const labelKeys = (jobs: Job[]): string[] => [...new Set(jobs.flatMap(({labels}) => Object.keys(labels)))].filter((key) => key !== PIN).sort();
 
-/** What a job has in common with the others of its group: its title, or a label, as in `label:law`. */
-export function groupOf({title, labels}: Job, by: string): string {
+export const isPinned = ({labels}: Job): boolean => PIN in labels;
+
+/** What a job has in common with the others of its group: its title, or a label, as in `label:law`; or that it is pinned. */
+export function groupOf(job: Job, by: string): string {
   const key = by.replace('label:', '');
-  return by === 'title' ? title || 'no title' : `${key} ${labels[key] ?? '–'}`;
+  if (isPinned(job)) return 'pinned';
+  return by === 'title' ? titleOf(job) || 'no title' : `${key} ${job.labels[key] ?? '–'}`;
 }
 
-/** Jobs of a group beside each other, in the order of groups' names. */
-export const grouped = (jobs: Job[], by: string): Job[] =>
-  (by ? [...jobs].sort((a, b) => groupOf(a, by).localeCompare(groupOf(b, by), undefined, {numeric: true})) : jobs);
+/** Pinned jobs, then those of a group beside each other, in the order of groups' names. */
+export function grouped(jobs: Job[], by: string): Job[] {
+  const [first, others] = [jobs.filter(isPinned), jobs.filter((job) => !isPinned(job))];
+  return [...first, ...(by ? others.sort((a, b) => groupOf(a, by).localeCompare(groupOf(b, by), undefined, {numeric: true})) : others)];
+}
 
 /** The states that a choice stands for. */
 export function statesOf(choice: string): Job_State[] {

@@ -25,13 +25,22 @@ export function labelChangeOf(text: string): LabelChange {
 }
 
 /** The labels of a run after a change. */
-export function relabelled({labels}: Pick<Job, 'labels'>, {set, removed}: LabelChange): Labels {
+export function relabelled({labels}: Pick<Job, 'labels'>, {set, removed}: Omit<LabelChange, 'wrong'>): Labels {
   return {...Object.fromEntries(Object.entries(labels).filter(([key]) => !removed.includes(key))), ...set};
 }
 
+export const TITLE = 'title';   // The label that stands for the title of the scenario, which cannot be changed,
+export const PIN = 'pin';       // and that of runs which the list has first.
+
+/** What a run is called. */
+export const titleOf = ({labels, title}: Pick<Job, 'labels' | 'title'>): string => labels[TITLE] || title;
+
+/** The labels that are shown as such. */
+export const plainLabels = (labels: Labels): [string, string][] => Object.entries(labels).filter(([key]) => key !== TITLE && key !== PIN);
+
 /** Labels as they are typed, in the order of their keys. */
 export const labelsText = (labels: Labels): string =>
-  Object.entries(labels).sort(([a], [b]) => (a < b ? -1 : 1)).map(([key, value]) => `${key}=${value}`).join(', ');
+  Object.entries(labels).filter(([key]) => key !== TITLE).sort(([a], [b]) => (a < b ? -1 : 1)).map(([key, value]) => `${key}=${value}`).join(', ');
 
 /** The beginning of a note, in one line. */
 export function noteHint(note: string, most = 60): string {

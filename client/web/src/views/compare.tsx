@@ -10,6 +10,7 @@ import {compareResults, deviation, differingParameters, runNames, type Result, t
 import {mechanicsOf} from '../model/mechanics';
 import {compact, exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
+import {titleOf} from '../model/remarks';
 import {Plot} from '../plots/plot';
 import {CopyLink} from '../ui/copy';
 import {LeftOut} from '../ui/left_out';
@@ -35,7 +36,7 @@ function Picker({jobs}: {jobs: string[]}) {
   };
   return (
     <><label>Add a run <select value="" onChange={add}><option value="">choose …</option>
-      {known.filter(({name}) => !jobs.includes(short(name))).map((job) => <option key={job.name} value={short(job.name)}>{job.title || short(job.name)} · {short(job.name)}</option>)}
+      {known.filter(({name}) => !jobs.includes(short(name))).map((job) => <option key={job.name} value={short(job.name)}>{titleOf(job) || short(job.name)} · {short(job.name)}</option>)}
     </select></label>
       {error !== undefined && <span role="alert">{explain(error)}</span>}
       {answer?.nextPageToken && <span class="soft">the newest {MOST_LISTED} runs; older ones are in the <a href="/runs">list</a></span>}</>
@@ -150,7 +151,7 @@ export function Compare({route: {query}}: {route: Route}) {
       {error !== undefined && <p class="notice" role="alert">{explain(error)}</p>}
       {ids.length === 0 && <p class="nothing">Choose runs here, or mark them in the <a href="/runs">list</a>. The first one is the baseline.</p>}
       <ul class="chips">{jobs.map((job) => (
-        <li key={job.name}><a href={`/runs/${short(job.name)}`}>{job.title || short(job.name)}</a> <span class="mono soft">{short(job.name)}</span> <StateBadge {...job} />
+        <li key={job.name}><a href={`/runs/${short(job.name)}`}>{titleOf(job) || short(job.name)}</a> <span class="mono soft">{short(job.name)}</span> <StateBadge {...job} />
           <button type="button" class="quiet" aria-label={`remove ${short(job.name)}`} onClick={() => setQuery({jobs: ids.filter((id) => id !== short(job.name)).join(',')})}>✕</button></li>))}
       </ul>
       {jobs.length >= 2 && <section aria-label="Parameters"><h2>Parameters</h2><Parameters jobs={jobs} /></section>}

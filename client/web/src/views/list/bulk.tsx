@@ -6,7 +6,8 @@ import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import type {Job} from '../../api/generated/contact/v1/job_pb';
 import {isFinal} from '../../api/watch';
-import {labelChangeOf, relabelled} from '../../model/remarks';
+import {isPinned} from '../../model/job_list';
+import {labelChangeOf, PIN, relabelled, type LabelChange} from '../../model/remarks';
 import {Twice} from '../../ui/twice';
 
 /** Calls for one run after the other; tells of those that were refused. */
@@ -14,6 +15,15 @@ async function forEach(jobs: Job[], call: (name: string) => Promise<unknown>): P
   const refused: string[] = [];
   for (const {name} of jobs) await call(name).catch((error: unknown) => { refused.push(explain(error)); });
   return refused.length > 0 ? `${refused.length} of ${jobs.length}: ${[...new Set(refused)].join(' ')}` : '';
+}
+
+/** Changes labels of runs. */
+function relabel(jobs: Job[], change: Omit<LabelChange, 'wrong'>): Promise<string> {
+  const byName = new Map(jobs.map((job) => [job.name, job]));
+  return forEach(jobs, (name) => {
+    const job = byName.get(name)!;
+    return server.updateJob({job: {name, labels: relabelled(job, change)}, updateMask: {paths: ['labels']}, expectedUid: job.uid});
+  });
 }
 
 const runs = (n: number) => `${n} ${n === 1 ? 'run' : 'runs'}`;
@@ -25,25 +35,28 @@ function Label({jobs, onError}: {jobs: Job[]; onError: (why: string) => void}) {
     event.preventDefault();
     const change = labelChangeOf(text!);
     if (change.wrong.length > 0) { onError(`${change.wrong.join(', ')}: write key=value to give a label, key- to take one away`); return; }
-    const byName = new Map(jobs.map((job) => [job.name, job]));
-    const why = await forEach(jobs, (name) => {
-      const job = byName.get(name)!;
-      return server.updateJob({job: {name, labels: relabelled(job, change)}, updateMask: {paths: ['labels']}, expectedUid: job.uid});
-    });
+    const why = await relabel(jobs, change);
     onError(why);
     if (!why) setText(undefined);
   };
   if (text === undefined) return <button type="button" onClick={() => setText('')}>Label {runs(jobs.length)} …</button>;
   return (
     <form class="group" aria-label="Labels of the chosen runs" onSubmit={(e) => void label(e)}>
-      <label>Labels <input value={text} autofocus placeholder="key=value, key-" spellcheck={false} onInput={(e) => setText(e.currentTarget.value)} /></label>
+      <label>Labels <input value={text} autofocus placeholder="key=value, key-, title=name" spellcheck={false} onInput={(e) => setText(e.currentTarget.value)} /></label>
       <button type="submit" class="primary" disabled={text.trim() === ''}>Label {runs(jobs.length)}</button>
       <button type="button" onClick={() => setText(undefined)}>Leave</button>
     </form>
   );
 }
 
-/** Labels the chosen runs, cancels those that go on, deletes those that have ended. */
+/** Keeps runs at the top of the list; those that are there all go back to their places. */
+function Pin({jobs, onError}: {jobs: Job[]; onError: (why: string) => void}) {
+  const all = jobs.every(isPinned);
+  const pin = async () => onError(await relabel(jobs, all ? {set: {}, removed: [PIN]} : {set: {[PIN]: '1'}, removed: []}));
+  return <button type="button" onClick={() => void pin()}>{all ? 'Unpin' : 'Pin'} {runs(jobs.length)}</button>;
+}
+
+/** Pins and labels the chosen runs, cancels those that go on, deletes those that have ended. */
 export function Bulk({jobs, gone}: {jobs: Job[]; gone: (jobs: Job[]) => void}) {
   const [error, setError] = useState('');
   const ended = jobs.filter(({state}) => isFinal(state));
@@ -55,7 +68,7 @@ export function Bulk({jobs, gone}: {jobs: Job[]; gone: (jobs: Job[]) => void}) {
   };
   return (
     <>
-      {jobs.length > 0 && <Label jobs={jobs} onError={setError} />}
+      {jobs.length > 0 && <><Pin jobs={jobs} onError={setError} /><Label jobs={jobs} onError={setError} /></>}
       {active.length > 0 && <Twice key={`cancel ${active.length}`} first={`Cancel ${runs(active.length)} …`} then="Cancel them for good" stay="Go on" act={() => void cancel()} />}
       {ended.length > 0 && <Twice key={`delete ${ended.length}`} first={`Delete ${runs(ended.length)} …`} then="Delete them for good" stay="Keep" act={() => void remove()} />}
       {error && <span role="alert">{error}</span>}

@@ -6,10 +6,10 @@ import {useEffect, useMemo, useRef, useState} from 'preact/hooks';
 import {Job_Convergence, type Job} from '../../api/generated/contact/v1/job_pb';
 import type {Link} from '../../api/stream';
 import {watchJobs} from '../../api/watch';
-import {bestOf, chosenOf, grouped, groupOf, JobList, labelKeys, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
+import {bestOf, chosenOf, grouped, groupOf, isPinned, JobList, labelKeys, METRICS, NOT_CONVERGED, labelsOf, statesOf} from '../../model/job_list';
 import type {Fields} from '../../model/job_fields';
 import {count, exact} from '../../model/numbers';
-import {noteHint} from '../../model/remarks';
+import {noteHint, plainLabels, titleOf} from '../../model/remarks';
 import {save} from '../../ui/save';
 import {LinkNote} from '../../ui/link_note';
 import {setQuery, type Route} from '../../ui/route';
@@ -52,10 +52,10 @@ function Row({job, metric, best, chosen, choose, values}: {
   return (
     <tr>
       <td><input type="checkbox" aria-label={`choose ${id}`} checked={chosen} onChange={(e) => choose(e.currentTarget.checked)} /></td>
-      <td class="title"><a href={`/runs/${id}`}>{job.title || id}</a>{job.note && <div class="soft" title={job.note}>{noteHint(job.note)}</div>}</td>
+      <td class="title">{isPinned(job) && <span class="best" title="pinned">▲ </span>}<a href={`/runs/${id}`} title={job.title}>{titleOf(job) || id}</a>{job.note && <div class="soft" title={job.note}>{noteHint(job.note)}</div>}</td>
       <td class="soft mono">{id}</td>
       <td><StateBadge state={job.state} convergence={job.convergence} /></td>
-      <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{Object.entries(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
+      <td class="labels">{(job.progress?.cells ?? 0) > 0 && <span class="label">sweep of {count(job.progress!.cells)}</span>}{plainLabels(job.labels).map(([k, v]) => <span key={k} class="label">{k}={v}</span>)}</td>
       {values.map((value, i) => <td key={i} class="number">{value ?? ''}</td>)}
       <td class="number">{metric === undefined ? '' : exact(metric)}{best && <span class="best" title="least of those that converged"> ★</span>}</td>
       <td class="number">{elapsed(job)}</td>
@@ -118,7 +118,7 @@ function Pages({page, pages, total}: {page: number; pages: number; total: number
 }
 
 function ordered(jobs: Job[], sort: string | null, metric: (job: Job) => number | undefined): Job[] {
-  if (sort === 'title') return [...jobs].sort((a, b) => a.title.localeCompare(b.title));
+  if (sort === 'title') return [...jobs].sort((a, b) => titleOf(a).localeCompare(titleOf(b)));
   if (sort !== 'metric') return jobs;
   return [...jobs].sort((a, b) => (metric(a) ?? Infinity) - (metric(b) ?? Infinity));
 }

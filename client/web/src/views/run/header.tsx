@@ -1,11 +1,12 @@
 // Title, state and what can be done with a job.
 
-import {useState} from 'preact/hooks';
+import {useEffect, useState} from 'preact/hooks';
 
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import {isFinal} from '../../api/watch';
 import type {RunSummary} from '../../api/generated/contact/v1/job_pb';
+import {titleOf, type Labels} from '../../model/remarks';
 import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
 import {CopyLink} from '../../ui/copy';
@@ -36,12 +37,15 @@ function cutOf({cyclesCut}: RunSummary): string {
 
 export function Header({id, run}: {id: string; run: RunState}) {
   const [error, setError] = useState('');
+  const [labels, setLabels] = useState<Labels>(run.job?.labels ?? {});   // Those of the job, or newer.
   const {job, progress} = run;
+  const title = (job && titleOf({...job, labels})) || id;
+  useEffect(() => { document.title = `${title} · contactd`; }, [title]);
   const ended = isFinal(run.state);
   return (
     <>
       <div class="head">
-        <h1>{job?.title || id}</h1>
+        <h1 title={job?.title}>{title}</h1>
         <StateBadge state={run.state} convergence={job?.convergence ?? 0} />
         <Actions id={id} ended={ended} onError={setError} />
       </div>
@@ -54,7 +58,7 @@ export function Header({id, run}: {id: string; run: RunState}) {
       {!ended && progress?.busyWith && <p class="soft">busy: {progress.busyWith}</p>}
       {run.message && <p class="notice" role="status">{run.reason}: {run.message}</p>}
       {job && <p class="facts soft">jobs/{id} · {elapsed(job, progress)}{job.summary ? ` · ${count(job.summary.cycles)} cycles${cutOf(job.summary)}, ${count(job.summary.iterations)} corrections of μ, ${count(job.summary.steps)} steps` : ''}</p>}
-      {job && <Remarks key={job.name} job={job} />}
+      {job && <Remarks key={job.name} job={job} onLabels={setLabels} />}
       {(job?.warnings ?? []).map((text) => <p key={text} class="warning"><span aria-hidden="true">⚠</span> {text}</p>)}
     </>
   );

@@ -5,26 +5,37 @@ import {useEffect, useRef, useState} from 'preact/hooks';
 import {server} from '../../api/client';
 import {explain} from '../../api/errors';
 import type {Job} from '../../api/generated/contact/v1/job_pb';
-import {labelChangeOf, labelsText, MOST_NOTE, type Labels} from '../../model/remarks';
+import {labelChangeOf, labelsText, MOST_NOTE, plainLabels, TITLE, type Labels} from '../../model/remarks';
+
+const MOST_LETTERS = 63;   // Of a label, see Job.labels.
 
 interface Said {
   labels: Labels;
   note: string;
 }
 
+/** What is typed. */
+interface Draft {
+  title: string;
+  labels: string;
+  note: string;
+}
+
+const draftFrom = ({labels, note}: Said): Draft => ({title: labels[TITLE] ?? '', labels: labelsText(labels), note});
 const draftKey = (name: string) => `remarks ${name}`;
 
 /** What was typed and not stored, also before the page was left. */
-function draftOf(name: string): {labels: string; note: string} | undefined {
+function draftOf(name: string): Draft | undefined {
   const kept = sessionStorage.getItem(draftKey(name));
-  return kept === null ? undefined : JSON.parse(kept) as {labels: string; note: string};
+  return kept === null ? undefined : JSON.parse(kept) as Draft;
 }
 
-export function Remarks({job}: {job: Job}) {
+export function Remarks({job, onLabels}: {job: Job; onLabels: (labels: Labels) => void}) {
   const {name} = job;
   const [said, setSaid] = useState<Said>(job);
   const [draft, setDraft] = useState(() => draftOf(name));
   const [error, setError] = useState('');
+  useEffect(() => onLabels(said.labels), [said]);
   useEffect(() => setSaid(job), [job.name, job.note, JSON.stringify(job.labels)]);
   const others = useRef<BroadcastChannel>();
   useEffect(() => {   // Other pages of this browser tell at once; of others this one hears when it is looked at.
@@ -42,10 +53,10 @@ export function Remarks({job}: {job: Job}) {
   const fail = (why: unknown) => setError(explain(why));
   const begin = () => {
     setError('');
-    setDraft({labels: labelsText(said.labels), note: said.note});
+    setDraft(draftFrom(said));
     server.getJob({name}).then((newest) => {   // Others may have changed it since.
       setSaid(newest);
-      setDraft((now) => (now?.labels === labelsText(said.labels) && now.note === said.note ? {labels: labelsText(newest.labels), note: newest.note} : now));
+      setDraft((now) => (JSON.stringify(now) === JSON.stringify(draftFrom(said)) ? draftFrom(newest) : now));
     }, fail);
   };
   const store = (event: Event) => {
@@ -53,7 +64,8 @@ export function Remarks({job}: {job: Job}) {
     const {set, removed, wrong} = labelChangeOf(draft!.labels);   // All of them: one goes when it is not written.
     const none = [...wrong, ...removed.map((key) => `${key}-`)];
     if (none.length > 0) { setError(`${none.join(', ')}: write labels as key=value`); return; }
-    server.updateJob({job: {name, labels: set, note: draft!.note}, updateMask: {paths: ['labels', 'note']}, expectedUid: job.uid}).then(
+    const labels = {...(draft!.title ? {[TITLE]: draft!.title} : {}), ...set};
+    server.updateJob({job: {name, labels, note: draft!.note}, updateMask: {paths: ['labels', 'note']}, expectedUid: job.uid}).then(
       (newest) => {
         setSaid(newest);
         setDraft(undefined);
@@ -64,14 +76,15 @@ export function Remarks({job}: {job: Job}) {
   if (!draft) {
     return (
       <section class="remarks" aria-label="Labels and note">
-        {Object.entries(said.labels).map(([key, value]) => <span key={key} class="label">{key}={value}</span>)}
+        {plainLabels(said.labels).map(([key, value]) => <span key={key} class="label">{key}={value}</span>)}
         {said.note && <p class="said">{said.note}</p>}
-        <button type="button" class="quiet" onClick={begin}>{said.note || Object.keys(said.labels).length > 0 ? 'Change labels and note' : 'Add labels or a note'}</button>
+        <button type="button" class="quiet" onClick={begin}>{said.note || Object.keys(said.labels).length > 0 ? 'Rename, change labels and note' : 'Rename, add labels or a note'}</button>
       </section>
     );
   }
   return (
     <form class="remarks" aria-label="Labels and note" onSubmit={store}>
+      <label>Title <input value={draft.title} placeholder={job.title} maxLength={MOST_LETTERS} spellcheck={false} onInput={(e) => setDraft({...draft, title: e.currentTarget.value.replaceAll(' ', '_')})} /></label>
       <label>Labels <input value={draft.labels} placeholder="key=value, …" spellcheck={false} onInput={(e) => setDraft({...draft, labels: e.currentTarget.value})} /></label>
       <label>Note <textarea value={draft.note} rows={Math.min(Math.max(draft.note.split('\n').length + 1, 3), 12)} maxLength={MOST_NOTE} onInput={(e) => setDraft({...draft, note: e.currentTarget.value})} /></label>
       <span class="group"><button type="submit" class="primary">Store</button>

@@ -6,6 +6,7 @@ import {isFinal} from '../../api/watch';
 import {mechanicsOf, type Mechanics} from '../../model/mechanics';
 import type {Measured} from '../../model/overlay';
 import {presetsAsked} from '../../model/presets';
+import {titleOf} from '../../model/remarks';
 import type {RunState} from '../../model/runState';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
@@ -36,7 +37,7 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const {scenario} = mechanics;
   const newest = run.job?.summary?.timeReachedS ?? run.progress?.timeS ?? 0;
   const window = windowOf(query, newest);
-  const source = [run.job!.title, `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
+  const source = [titleOf(run.job!), `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
   const all = query.get('plots') === 'all';
   const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all), [mechanics, query.get('contact'), all]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
@@ -63,7 +64,6 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
 export function Run({route}: {route: Route}) {
   const id = route.path.split('/')[2]!;
   const {run, link} = useRun(id);
-  useEffect(() => { document.title = `${run.job?.title || id} · contactd`; }, [run.job?.title]);
   useEffect(() => () => setPlayhead(undefined), [id]);
   const header = useMemo(() => <Header id={id} run={run} />, [id, run]);
   const details = useMemo(() => <Details run={run} />, [run]);
