@@ -5,6 +5,7 @@ import {toJson} from '@bufbuild/protobuf';
 import {Cycle_End, Cycle_Status, Job_State, type Job} from '../api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../api/generated/contact/v1/scenario_pb';
 import {flatten} from './field_path';
+import {mechanicsOf, muUnit} from './mechanics';
 import {restitutionOf} from './status';
 
 export type Value = number | string | undefined;
@@ -63,11 +64,13 @@ export function holds(value: Value, baseline: Value, {absolute, relative}: Toler
 type Entry = [name: string, unit: string, value: Value];
 
 function resultsOf(job: Job): Entry[] {
+  const contacts = job.spec.case === 'scenario' ? mechanicsOf(job.spec.value).contacts : [];
+  const units = new Map(contacts.map((contact) => [contact.name, muUnit([contact])]));
   const cycles = job.cycles.flatMap((c): Entry[] => {
     const name = `${c.contact} #${c.number}`;
     return [
       [`${name} status`, '', Cycle_Status[c.status]], [`${name} end`, '', Cycle_End[c.end]],
-      [`${name} μ`, 'N·s/m^(n+1)', c.mu], [`${name} ε out`, '1', restitutionOf(c)],
+      [`${name} μ`, units.get(c.contact) ?? muUnit([]), c.mu], [`${name} ε out`, '1', restitutionOf(c)],
       [`${name} peak force`, 'N', c.peakForceN], [`${name} δ max`, 'm', c.deltaMaxM],
       [`${name} t end`, 's', c.endTimeS],
     ];

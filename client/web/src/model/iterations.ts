@@ -2,6 +2,7 @@
 
 import look from '../../../python/contactsim/figures/words.json';
 import {Iteration_Update, type Iteration, type Iteration_Unknown} from '../api/generated/contact/v1/event_pb';
+import {muUnit} from './mechanics';
 import {exact} from './numbers';
 import type {Curve, Panel} from './panel';
 
@@ -77,7 +78,7 @@ function curvesOf(passes: Iteration[], value: (unknown: Iteration['unknowns'][nu
 }
 
 /** The passes of one episode as two panels. */
-export function iterationPanels(iterations: Iteration[], episode: number): Panel[] {
+export function iterationPanels(iterations: Iteration[], episode: number, unit = muUnit([])): Panel[] {
   const passes = iterations.filter((pass) => pass.episode === episode);
   const only = passes.length === iterations.length;
   const mu = curvesOf(passes, ({mu: value}) => value);
@@ -85,7 +86,7 @@ export function iterationPanels(iterations: Iteration[], episode: number): Panel
   const xLabel = only ? 'pass' : `pass of episode ${episode}`;
   const common = {xLabel, overTime: true, countedX: true};
   return [
-    {...common, id: 'mu', title: look.titles.mu, yLabel: 'μ [N·s/m^(n+1)]', logY: haveManySizes(mu), curves: mu},
+    {...common, id: 'mu', title: look.titles.mu, yLabel: `μ [${unit}]`, logY: haveManySizes(mu), curves: mu},
     {...common, id: 'residual', title: look.titles.residual, yLabel: '|W_r/W_c + ε²| [1]', logY: true, curves: residual},
   ];
 }

@@ -127,6 +127,25 @@ export function mechanicsOf(scenario: Scenario): Mechanics {
 /** Laws whose damper does not fade with δ. */
 const DASHPOTS = [Contact_Damping.KELVIN_VOIGT, Contact_Damping.DASHPOT];
 
+/** The power of the unit of μ as a fraction. */
+function fraction(value: number): string {
+  let [over, under] = [Math.round(value), 1];
+  for (let d = 2; d <= 100; ++d) if (Math.abs(value - Math.round(value * d) / d) < Math.abs(value - over / under) - 1e-12) [over, under] = [Math.round(value * d), d];
+  return under === 1 ? `${over}` : `${over}/${under}`;
+}
+
+/** The power of δ in the damper of a contact. */
+function dampingExponent({damping, exponent}: ContactModel): number {
+  return DASHPOTS.includes(damping) ? 0 : damping === Contact_Damping.HERTZ_QUARTER_POWER ? 0.25 : exponent;
+}
+
+/** The unit of μ in μ δⁿ δ̇, if all these contacts have the same n: N·s/m^(5/2) of n = 3/2. */
+export function muUnit(contacts: ContactModel[]): string {
+  const powers = new Set(contacts.map((contact) => fraction(dampingExponent(contact) + 1)));
+  const power = powers.size === 1 ? [...powers][0]! : 'n+1';
+  return `N·s/m${power === '1' ? '' : /^\d+$/.test(power) ? `^${power}` : `^(${power})`}`;
+}
+
 /** The force of a contact where δ̇ or δ is 0, as at the ends of a cycle. */
 export function endForce(
   {clipTension}: Mechanics, contact: ContactModel, mu: number, deformation: number, rate: number,

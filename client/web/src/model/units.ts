@@ -3,9 +3,6 @@
 import look from '../../../python/contactsim/figures/words.json';
 
 const PREFIXES: Record<string, string> = look.prefixes;
-const SUPERSCRIPT: Record<string, string> = {
-  '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹',
-};
 
 /** A unit for an axis: values are divided by `factor`. */
 export interface AxisUnit {
@@ -24,9 +21,14 @@ const firstOf = (unit: string) => unit.split(/[/^*·]/)[0]!;
 /** Whether a prefix before the unit is that of its first symbol, alone and not a power of it. */
 const takesPrefix = (unit: string) => look.symbols.includes(firstOf(unit)) && unit[firstOf(unit).length] !== '^';
 
-function power(exponent: number): string {
-  return `10${[...String(exponent)].map((digit) => SUPERSCRIPT[digit]).join('')}`;
+const RAISED = Object.fromEntries([...'0123456789+-n/.'].map((letter, i) => [letter, '⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿᐟ·'[i]!]));
+
+/** With raised exponents, for the eye: `m/s^2` as m/s², `m^(5/2)` as m⁵ᐟ². */
+export function typeset(label: string): string {
+  return label.replace(/\^(?:\(([-+n0-9./]+)\)|(-?[0-9n.]+))/g, (_all, long?: string, brief?: string) => [...long ?? brief!].map((letter) => RAISED[letter]).join(''));
 }
+
+export const power = (exponent: number): string => typeset(`10^${exponent}`);
 
 /** The unit in which numbers up to `largest` are easy to read. */
 export function readableUnit(label: string, largest: number): AxisUnit {

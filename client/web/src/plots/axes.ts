@@ -3,12 +3,11 @@
 import uPlot from 'uplot';
 
 import {decimals} from '../model/numbers';
-import {readableUnit, type AxisUnit} from '../model/units';
+import {power, readableUnit, typeset, type AxisUnit} from '../model/units';
 import type {Panel} from '../model/panel';
 
 export const FONT = '12px system-ui, sans-serif';
 const BOLD = '600 12px system-ui, sans-serif';
-const SUPERSCRIPT = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 export interface Ink {
   text: string;
@@ -21,19 +20,18 @@ export interface Ink {
 
 const LOGARITHMIC: uPlot.Scale.Distr = 3;
 
-/** The unit of an axis for what it shows now. Powers of ten on a logarithmic axis are of the unit itself. */
+/** The unit of an axis for what it shows now, as it is written there. Powers of ten on a logarithmic axis are of the unit itself. */
 export function unitOfScale(u: uPlot, scale: 'x' | 'y', label: string): AxisUnit {
   const {min, max, distr} = u.scales[scale]!;
-  if (distr === LOGARITHMIC) return {factor: 1, label};
-  return readableUnit(label, Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)));
+  const {factor, label: name} = distr === LOGARITHMIC ? {factor: 1, label} : readableUnit(label, Math.max(Math.abs(min ?? 0), Math.abs(max ?? 0)));
+  return {factor, label: typeset(name)};
 }
 
 /** `10⁻⁶` for powers of ten, nothing for what lies between. */
 export function powerOfTen(value: number): string {
   const exponent = Math.log10(value);
   if (Math.abs(exponent - Math.round(exponent)) > 1e-9) return '';
-  const digits = [...String(Math.abs(Math.round(exponent)))].map((d) => SUPERSCRIPT[Number(d)]);
-  return `10${Math.round(exponent) < 0 ? '⁻' : ''}${digits.join('')}`;
+  return power(Math.round(exponent));
 }
 
 function ticks(label: () => string, scale: 'x' | 'y', log: boolean): uPlot.Axis.Values {

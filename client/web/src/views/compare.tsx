@@ -11,6 +11,7 @@ import {mechanicsOf} from '../model/mechanics';
 import {compact, exact, short as digits} from '../model/numbers';
 import type {Panel} from '../model/panel';
 import {titleOf} from '../model/remarks';
+import {typeset} from '../model/units';
 import {Plot} from '../plots/plot';
 import {CopyLink} from '../ui/copy';
 import {LeftOut} from '../ui/left_out';
@@ -77,7 +78,7 @@ function Results({jobs, query}: {jobs: Job[]; query: URLSearchParams}) {
       </div>
       <div class="scroll" tabIndex={0} role="region" aria-label="Results with verdicts"><table>
         <thead><tr><th>result</th><th>unit</th>{jobs.map(({name}, i) => <th key={name} class="number">{short(name)}{i === 0 ? ' (baseline)' : ''}</th>)}</tr></thead>
-        <tbody>{shown.map((row) => <tr key={row.name}><td class="name">{row.name}</td><td class="soft">{row.unit}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
+        <tbody>{shown.map((row) => <tr key={row.name}><td class="name">{row.name}</td><td class="soft">{typeset(row.unit)}</td>{jobs.map((_, i) => <Verdict key={i} row={row} i={i} />)}</tr>)}</tbody>
       </table></div>
       <LeftOut shown={shown.length} all={wanted.length} what="results" way="contactctl compare has all" />
     </section>

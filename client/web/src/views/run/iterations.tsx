@@ -14,6 +14,8 @@ interface Props {
   run: RunState;
   query: URLSearchParams;
   source: string;
+  /** Of μ. */
+  unit: string;
 }
 
 const READ_MS = 1000;   // For which an episode stays, so that people can read it.
@@ -60,10 +62,10 @@ function Episode({run, episode, last, chosen}: {run: RunState; episode: number; 
   );
 }
 
-export function Iterations({run, query, source}: Props) {
+export function Iterations({run, query, source, unit}: Props) {
   const episode = useEpisode(run, query);
   const version = run.dropped + run.iterations.length;
-  const panels = useMemo(() => iterationPanels(run.iterations, episode), [version, episode]);
+  const panels = useMemo(() => iterationPanels(run.iterations, episode, unit), [version, episode, unit]);
   const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [version]);
   return (
     <section aria-label="Iterations">
@@ -74,7 +76,7 @@ export function Iterations({run, query, source}: Props) {
       <div class="plots">
         {panels.map((panel) => <Plot key={panel.id} panel={panel} source={source} height={210} empty={emptyOf(run, episode)} />)}
       </div>
-      {run.iterations.length > 0 && <Passes iterations={run.iterations} episode={episode} version={version} query={query} />}
+      {run.iterations.length > 0 && <Passes iterations={run.iterations} episode={episode} version={version} query={query} unit={unit} />}
     </section>
   );
 }

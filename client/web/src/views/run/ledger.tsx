@@ -8,6 +8,7 @@ import {
 import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
 import {isCut, lookOfStatus, reachedOf, restitutionOf} from '../../model/status';
+import {typeset} from '../../model/units';
 import {setQuery} from '../../ui/route';
 import {leafOf, Leaves} from './leaves';
 import {setWindow} from './window';
@@ -18,14 +19,14 @@ interface Column<T> {
   words?: boolean;
 }
 
-const CYCLES: Column<Cycle>[] = [
+const cycleColumns = (unit: string): Column<Cycle>[] => [
   {name: 'kind', of: (c) => Cycle_Kind[c.kind], words: true},
   {name: 'end', of: (c) => Cycle_End[c.end], words: true},
   {name: 'group', of: (c) => exact(c.group)},
   {name: 'n', of: (c) => exact(c.iterations)},
   {name: 'ε in', of: (c) => exact(c.restitutionIn)},
   {name: 'ε out', of: (c) => exact(restitutionOf(c))},
-  {name: 'μ [N·s/m^(n+1)]', of: (c) => exact(c.mu)},
+  {name: `μ [${unit}]`, of: (c) => exact(c.mu)},
   {name: 'μ/k [s/m]', of: (c) => exact(c.muOverKSPerM)},
   {name: 'α', of: (c) => exact(c.alpha)},
   {name: 'peak force [N]', of: (c) => exact(c.peakForceN)},
@@ -39,14 +40,14 @@ const CYCLES: Column<Cycle>[] = [
   {name: 'W_r [J]', of: (c) => exact(c.workRestitutionJ)},
   {name: 'residual', of: (c) => exact(c.identityResidual)},
 ];
-const GROUPS: Column<Group>[] = [
+const groupColumns = (unit: string): Column<Group>[] => [
   {name: 'cycles', of: (g) => `${g.firstCycle}${g.cycles > 1 ? `–${g.firstCycle + g.cycles - 1}` : ''}`},
   {name: 'encounter', of: (g) => exact(g.encounter)},
   {name: 'end', of: (g) => Cycle_End[g.end], words: true},
   {name: 'grew', of: (g) => (g.growth > 1 ? Group_Growth[g.growth] : ''), words: true},
   {name: 'ε in', of: (g) => exact(g.restitutionIn)},
   {name: 'ε out', of: (g) => exact(g.restitutionOut)},
-  {name: 'μ [N·s/m^(n+1)]', of: (g) => exact(g.mu)},
+  {name: `μ [${unit}]`, of: (g) => exact(g.mu)},
   {name: 'W_c [J]', of: (g) => exact(g.workCompressionJ)},
   {name: 'W_r [J]', of: (g) => exact(g.workRestitutionJ)},
   {name: 't start [s]', of: (g) => exact(g.startTimeS)},
@@ -89,7 +90,8 @@ function Table<T extends Entry>({rows, columns}: {rows: T[]; columns: Column<T>[
   );
 }
 
-export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
+export function Ledger({run, query, unit}: {run: RunState; query: URLSearchParams; unit: string}) {
+  const columns = useMemo(() => ({cycles: cycleColumns(typeset(unit)), groups: groupColumns(typeset(unit))}), [unit]);
   const groups = query.get('ledger') === 'groups';
   const contact = query.get('contact') ?? '';
   const status = query.get('status') ?? '';
@@ -111,7 +113,7 @@ export function Ledger({run, query}: {run: RunState; query: URLSearchParams}) {
         <Leaves leaf={leaf} name="leaf" what="the ledger" />
       </div>
       {all.length === 0 ? <p class="nothing">No {groups ? 'group' : 'cycle'} has ended yet.</p>
-        : groups ? <Table rows={leaf.shown as Group[]} columns={GROUPS} /> : <Table rows={leaf.shown as Cycle[]} columns={CYCLES} />}
+        : groups ? <Table rows={leaf.shown as Group[]} columns={columns.groups} /> : <Table rows={leaf.shown as Cycle[]} columns={columns.cycles} />}
     </section>
   );
 }

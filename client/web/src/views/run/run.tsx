@@ -3,7 +3,7 @@
 import {useEffect, useMemo, useState} from 'preact/hooks';
 
 import {isFinal} from '../../api/watch';
-import {mechanicsOf, type Mechanics} from '../../model/mechanics';
+import {mechanicsOf, muUnit, type Mechanics} from '../../model/mechanics';
 import type {Measured} from '../../model/overlay';
 import {presetsAsked} from '../../model/presets';
 import {titleOf} from '../../model/remarks';
@@ -35,6 +35,7 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const spec = run.job!.spec;
   const mechanics = useMemo(() => mechanicsOf(spec.value as ScenarioMessage), [run.job!.name]);
   const {scenario} = mechanics;
+  const unit = muUnit(mechanics.contacts);
   const newest = run.job?.summary?.timeReachedS ?? run.progress?.timeS ?? 0;
   const window = windowOf(query, newest);
   const source = [titleOf(run.job!), `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
@@ -44,11 +45,11 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const recorded = !scenario.output?.ledgerOnly;
   const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.
   const strip = useMemo(() => <StripView mechanics={mechanics} series={series} query={choice} />, [mechanics, series, choice]);
-  const iterations = useMemo(() => <Iterations run={run} query={choice} source={source} />, [run, choice, source]);
+  const iterations = useMemo(() => <Iterations run={run} query={choice} source={source} unit={unit} />, [run, choice, source]);
   const [measured, setMeasured] = useState<Measured>();
   const measurements = useMemo(() => recorded && isFinal(run.state) && newest > 0 && (
     <Measurements name={run.job!.name} end={newest} query={choice} onMeasured={setMeasured} />), [run.job!.name, newest, recorded, isFinal(run.state), choice]);
-  const ledger = useMemo(() => <Ledger run={run} query={choice} />, [run, choice]);
+  const ledger = useMemo(() => <Ledger run={run} query={choice} unit={unit} />, [run, choice]);
   return (
     <>
       {recorded && strip}

@@ -12,6 +12,7 @@ import {setField} from '../../model/field_path';
 import {count, exact} from '../../model/numbers';
 import {metricText, outcomeOf} from '../../model/sweep';
 import {axisLabel, metricLabel} from '../../model/sweep_labels';
+import {typeset} from '../../model/units';
 import {requestId} from '../../ui/request_id';
 import {go} from '../../ui/route';
 
@@ -41,8 +42,8 @@ export function CellDetails({id, sweep, cell, index}: {id: string; sweep: Sweep;
       <h3>Cell {index}: {outcomeOf(cell)}{cell.cycles === 0n && ', no contact'}{cell.cyclesCut > 0n && `, ${count(cell.cyclesCut)} cut by the end`}</h3>
       {cell.message && <p>{cell.stateReason}: {cell.message}</p>}
       <dl>
-        {sweep.axes.map((axis, i) => <div key={axis.field}><dt>{axisLabel(sweep, i)}</dt><dd>{exact(cell.values[i]!)}</dd></div>)}
-        {sweep.metrics.map((name, i) => <div key={name}><dt>{metricLabel(name)}</dt><dd>{metricText(cell, i)}</dd></div>)}
+        {sweep.axes.map((axis, i) => <div key={axis.field}><dt>{typeset(axisLabel(sweep, i))}</dt><dd>{exact(cell.values[i]!)}</dd></div>)}
+        {sweep.metrics.map((name, i) => <div key={name}><dt>{typeset(metricLabel(name))}</dt><dd>{metricText(cell, i)}</dd></div>)}
       </dl>
       <button type="button" class="primary" onClick={() => { runCell(id, sweep, cell).catch((e: unknown) => setError(explain(e))); }}>Run this cell</button>
       {error && <p role="alert">{error}</p>}

@@ -11,6 +11,7 @@ import type {RunState} from '../../model/runState';
 import {count, exact} from '../../model/numbers';
 import {axisName, axisValues, isGrid, metricOf, outcomeOf, unknownsOf} from '../../model/sweep';
 import {axisLabel, metricLabel} from '../../model/sweep_labels';
+import {typeset} from '../../model/units';
 import {save} from '../../ui/save';
 import {setQuery} from '../../ui/route';
 import {CellDetails, runCell} from './cell';
@@ -43,8 +44,8 @@ export function Sweep({id, run, query}: Props) {
   const cells = useMemo(() => [...run.cells.values()].sort((a, b) => a.index - b.index), [run.cells.size]);
   const [error, setError] = useState('');
   if (!sweep) return null;
-  const axes = sweep.axes.map((axis, i) => ({name: axisLabel(sweep, i), values: axisValues(axis)}));
-  const metrics = sweep.metrics.map(metricLabel);
+  const axes = sweep.axes.map((axis, i) => ({name: typeset(axisLabel(sweep, i)), values: axisValues(axis)}));
+  const metrics = sweep.metrics.map((metric) => typeset(metricLabel(metric)));
   const sizes = axes.map(({values}) => values.length);
   const grid = isGrid(sweep) && axes.length >= 2;
   const kinds: [string, string][] = [...(grid ? [['map', 'map'] as [string, string]] : []), ...(axes.length === 1 ? [['line', 'line'] as [string, string]] : []), ['parallel', 'parallel coordinates']];
