@@ -4,9 +4,9 @@ import {describe, expect, it} from 'vitest';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
 import type {RunView} from '../src/model/curves';
-import {mechanicsOf} from '../src/model/mechanics';
+import {mechanicsOf, type Mechanics} from '../src/model/mechanics';
 import {panelCsv} from '../src/model/panel';
-import {PRESETS, presetsAsked, presetsFor} from '../src/model/presets';
+import {PRESETS, presetsAsked, presetsFor, thinned} from '../src/model/presets';
 import {pixelsOf, rowRange, waterfallOf, type Raster} from '../src/model/raster';
 
 // A wave that reaches body i at i/10 s, a pulse of 3 m/s or N, with the sign of each body.
@@ -69,6 +69,11 @@ describe('a wave through a row of bodies', () => {
     const lines = waterfallOf({time, rows, label: 'x [1]', largest: 3});
     expect([lines.length, lines.at(-1)!.row, lines[0]!.row]).toEqual([50, 1, 148]);
   });
+  it('stands in its row of the scenario, if only every n-th is there', () => {
+    const rows = [0, 1, 2].map((i) => ({name: `${i}`, values: pulse(1, 1)}));
+    const raster = {time, rows, label: 'x [1]', largest: 3, every: 10};
+    expect([rowRange(raster), waterfallOf(raster).map(({row}) => row), Math.max(...waterfallOf(raster)[0]!.y)]).toEqual([[-4, 26], [21, 11, 1], 41]);
+  });
   it('has its own values in the file', () => {
     const lines = panelCsv(panelOf('velocity-waterfall', run(() => -1))).split('\n');
     expect([lines[0], lines[1 + 401 + 20]]).toEqual(['curve,time [s],velocity [m/s]', 'B1,0.1,-3']);
@@ -78,6 +83,9 @@ describe('a wave through a row of bodies', () => {
     const ids = (of: Parameters<typeof presetsFor>[0]) => presetsFor(of).map(({id}) => id).filter((id) => /map|waterfall/.test(id));
     expect(ids(few)).toEqual([]);
     expect(ids(run(() => 1).mechanics)).toEqual(['force-map', 'velocity-map', 'force-waterfall', 'velocity-waterfall']);
+    const long = {...run(() => 1).mechanics, contacts: Array.from({length: 10_000}, (_, i) => ({name: `C${i}`}))} as unknown as Mechanics;
+    const maps = presetsAsked(long, true).filter(({many}) => many).map(({many, channels}) => channels(thinned(long, many!, true)).length);
+    expect([thinned(long, 'contacts', false).every, thinned(long, 'contacts', false).contacts.length, maps]).toEqual([34, 295, [139, 20, 139, 20]]);
     const asked = (all: boolean) => presetsAsked(run(() => 1).mechanics, all).filter(({many}) => many).length;
     expect([asked(false), asked(true)]).toEqual([1, 4]);
   });

@@ -31,6 +31,8 @@ export interface Mechanics {
   bodies: BodyModel[];
   contacts: ContactModel[];
   clipTension: boolean;
+  /** Which of its contacts or bodies are here, where there are too many: every n-th. */
+  every?: number;
 }
 
 function compliance(material: Material | undefined): number {

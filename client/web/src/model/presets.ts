@@ -22,7 +22,9 @@ export interface Preset {
 
 export const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 export const MOST_CONTACTS = 12;     // With a curve each.
-const MOST_ROWS = 400;   // Of maps and waterfalls: the server thins less for fewer columns.
+const MOST_ROWS = 400;   // Of a map: the server answers with at most some 500 columns that it thins.
+const FEW_ROWS = 300;    // Of more contacts, none of which other plots have,
+const LEAST_ROWS = 140;  // and with all plots.
 const MOST_LABELS = 12;
 
 const MOST_LANES = 5;    // More would leave the curves no room.
@@ -109,11 +111,12 @@ function rowsOf(view: RunView, moving: boolean, lines: boolean): Panel {
   const {factor, label} = readableUnit(quantity, largest);
   const most = `${short(largest / factor)} ${unitOf(label)}`;
   const both = low < 0;
+  const {every = 1} = mechanics;
   const colour = both ? `from −${most} (blue) over 0 (white) to ${most} (red)` : `from 0 (dark) to ${most} (bright)`;
   return {
     id, title: look.titles[id],
-    xLabel: 'time [s]', yLabel: each, overTime: true, stamp: stampOf(view), countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines},
-    note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest`,
+    xLabel: 'time [s]', yLabel: each, overTime: true, stamp: stampOf(view), countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines, every},
+    note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest${every > 1 ? `; one of every ${every} ${moving ? 'bodies' : 'contacts'}` : ''}`,
   };
 }
 
@@ -212,8 +215,14 @@ export function presetsShown(mechanics: Mechanics, all: boolean, measured: Measu
 
 /** The plots that can be made of a scenario. */
 export function presetsFor(mechanics: Mechanics): Preset[] {
-  const isMany = (count: number) => count > MOST_CONTACTS && count <= MOST_ROWS;
-  return PRESETS.filter(({many}) => !many || isMany(mechanics[many].length));
+  return PRESETS.filter(({many}) => !many || mechanics[many].length > MOST_CONTACTS);
+}
+
+/** The scenario with as many of its contacts or bodies as a map has rows: every n-th, from the first on. */
+export function thinned(mechanics: Mechanics, many: 'contacts' | 'bodies', all: boolean): Mechanics {
+  const count = mechanics[many].length;
+  const every = Math.ceil(count / (all ? LEAST_ROWS : count > MOST_ROWS ? FEW_ROWS : MOST_ROWS));
+  return every === 1 ? mechanics : {...mechanics, every, [many]: mechanics[many].filter((_: unknown, i: number) => i % every === 0)};
 }
 
 /** Those of which the columns are asked for: where there are many, only as far as they are shown. */

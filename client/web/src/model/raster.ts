@@ -9,6 +9,8 @@ export interface Raster {
   rows: {name: string; values: ArrayLike<number>}[];
   /** The quantity with its unit, such as `force [N]`. */
   label: string;
+  /** How many rows further in the scenario the next one is; 1 if not told. */
+  every?: number;
   /** The largest magnitude. */
   largest: number;
   /** True where values lie on both sides of 0: blue below it, red above it. */
@@ -74,7 +76,7 @@ export function pixelsOf({time, rows, largest, both}: Raster, window: [number, n
 
 /** The line of a row. */
 export interface RowLine {
-  /** Number of the row, from 1: where the line stands while its values are 0. */
+  /** Number of the row in the scenario, from 1: where the line stands while its values are 0. */
   row: number;
   colour: string;
   /** Heights above row 0, in rows; at the times of the raster. */
@@ -82,23 +84,24 @@ export interface RowLine {
 }
 
 /** A line for each row, of many rows every n-th, coloured by its place. From the top down, so that each lies over the one behind it. */
-export function waterfallOf({rows, largest}: Raster, dark = false): RowLine[] {
+export function waterfallOf({rows, largest, every = 1}: Raster, dark = false): RowLine[] {
   const step = Math.ceil(rows.length / MOST_LINES);
   const places = rows.map((_, i) => i).filter((i) => i % step === 0);
-  const unit = HEIGHT * step / (largest || 1);
+  const unit = HEIGHT * step * every / (largest || 1);
   const [first, last] = dark ? ON_DARK : SHADES;
   return places.map((i, place) => ({
-    row: i + 1,
+    row: 1 + i * every,
     colour: viridis(first + (last - first) * place / Math.max(places.length - 1, 1)),
-    y: Float64Array.from(rows[i]!.values, (value) => i + 1 + unit * value),
+    y: Float64Array.from(rows[i]!.values, (value) => 1 + i * every + unit * value),
   })).reverse();
 }
 
 /** What of the axis of rows is shown. */
 export function rowRange(raster: Raster): [number, number] {
-  const count = raster.rows.length;
-  if (!raster.lines) return [0.5, count + 0.5];
-  const [low, high] = extent(waterfallOf(raster).map(({y}) => y)) ?? [1, count];
-  const step = Math.ceil(count / MOST_LINES);
-  return [Math.min(low, 1) - 0.5 * step, Math.max(high, count) + 0.3 * step];
+  const {every = 1, rows: {length}} = raster;
+  const last = 1 + (length - 1) * every;
+  if (!raster.lines) return [1 - every / 2, last + every / 2];
+  const [low, high] = extent(waterfallOf(raster).map(({y}) => y)) ?? [1, last];
+  const step = every * Math.ceil(length / MOST_LINES);
+  return [Math.min(low, 1) - 0.5 * step, Math.max(high, last) + 0.3 * step];
 }

@@ -69,7 +69,7 @@ export function axesOf(shown: () => Panel, ink: Ink): uPlot.Axis[] {
   };
   const label = (scale: 'x' | 'y', name: () => string) =>
     ((u: uPlot) => unitOfScale(u, scale, name()).label) as unknown as string;
-  const whole = (counted?: boolean) => (counted ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]} : {});
+  const whole = (counted?: boolean) => (counted ? {incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]} : {});
   return [
     {...common, ...whole(panel.countedX), scale: 'x', size: 30, space: 70, label: label('x', xName),
       values: ticks(xName, 'x', !!panel.logX)},

@@ -10,6 +10,7 @@ import type {Ink} from './axes';
 import {aligned, buildPlot, lines, type Shown} from './build';
 import {Exports} from './exports';
 import {Key} from './key';
+import {LANE_PX} from './layers';
 import {useReading} from './moment';
 import type {Window} from './range';
 
@@ -91,6 +92,7 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
   const shown = useRef<Shown>();
   const [hidden, setHidden] = useHidden(panel.id);
   const key = structure(panel);
+  const whole = height + LANE_PX * (panel.lanes?.length ?? 0);   // Bars take nothing of the curves.
   const seen = useSeen(box);
   const reading = useReading(plot, panel);
 
@@ -98,14 +100,14 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
     const ink = inkOf(box.current!);
     shown.current = {panel, window: span, hidden, theme, ink, onZoom: onZoom ?? (() => undefined), onCursor: (place) => reading.point(place),
       onDrawn: () => reading.drawn()};
-    plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, height, box.current!);
+    plot.current = buildPlot(shown.current, box.current!.clientWidth || 400, whole, box.current!);
     const observer = new ResizeObserver(() => {
       const width = box.current?.clientWidth;
-      if (width && plot.current && width !== plot.current.width) plot.current.setSize({width, height});
+      if (width && plot.current && width !== plot.current.width) plot.current.setSize({width, height: whole});
     });
     observer.observe(box.current!);
     return () => { observer.disconnect(); plot.current?.destroy(); plot.current = undefined; };
-  }, [key, theme, height]);
+  }, [key, theme, whole]);
 
   useLayoutEffect(() => {
     if (!plot.current || !shown.current) return;

@@ -3,7 +3,7 @@
 import {useEffect, useMemo} from 'preact/hooks';
 
 import {bandsOf, type RunPart} from '../../model/curves';
-import {MOST_CONTACTS, presetsShown, type Preset} from '../../model/presets';
+import {MOST_CONTACTS, presetsShown, thinned, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import {withMeasured, type Measured as MeasuredPoints} from '../../model/overlay';
 import type {Series} from '../../api/series';
@@ -29,9 +29,9 @@ interface Props {
   measured: MeasuredPoints | undefined;
 }
 
-/** The part of a scenario that fits a plot. Maps and waterfalls are of all bodies. */
-export function partFor(preset: Preset, mechanics: Mechanics, contact: string | null): Mechanics {
-  return preset.many ? mechanics : crop(mechanics, contact);
+/** The part of a scenario that fits a plot. Maps and waterfalls are of all bodies, or of every n-th. */
+export function partFor({many}: Preset, mechanics: Mechanics, contact: string | null, all: boolean): Mechanics {
+  return many ? thinned(mechanics, many, all) : crop(mechanics, contact);
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
@@ -58,11 +58,15 @@ function usePart({run, drawn, series}: Props): RunPart {
   }, [series, isFinal(run.state) && run.cycles.length]);
 }
 
+const MAP_PX = 320;   // High enough for a row a pixel.
+
 interface PresetProps {
   preset: Preset;
   mechanics: Mechanics;
   part: RunPart;
   contact: string | null;
+  /** Whether all plots are shown. */
+  all: boolean;
   drawn: Window | undefined;
   measured: MeasuredPoints | undefined;
   source: string;
@@ -70,11 +74,11 @@ interface PresetProps {
   empty: string;
 }
 
-function PresetPlot({preset, mechanics: all, part, contact, measured, drawn, ...rest}: PresetProps) {
-  const mechanics = useMemo(() => partFor(preset, all, contact), [all, contact]);
+function PresetPlot({preset, mechanics: whole, part, contact, all, measured, drawn, ...rest}: PresetProps) {
+  const mechanics = useMemo(() => partFor(preset, whole, contact, all), [whole, contact, all]);
   const panel = useMemo(() => preset.panel({mechanics, ...part}), [part, mechanics]);
   const shown = useMemo(() => withMeasured(panel, measured, drawn), [panel, measured, drawn?.[0], drawn?.[1]]);
-  return <Plot panel={shown} window={drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} />;
+  return <Plot panel={shown} window={drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} {...(preset.many ? {height: MAP_PX} : {})} />;
 }
 
 /** Zoom by buttons and keys, for those who do not drag. */
@@ -131,7 +135,7 @@ export function Motion(props: Props) {
   const looped = useMemo(() => ({...part, loops}), [part, loops]);
   const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
   const plots = useMemo(() => presetsShown(mechanics, all, measured).map((preset) => (
-    <PresetPlot key={preset.id} {...{preset, mechanics, contact, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, measured, source, empty]);
+    <PresetPlot key={preset.id} {...{preset, mechanics, contact, all, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, measured, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>

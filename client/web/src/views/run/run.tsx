@@ -27,7 +27,7 @@ import {windowOf} from './window';
 /** The columns of all plots and the strip, each once. */
 function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean): string[] {
   if (mechanics.scenario.output?.ledgerOnly) return [];
-  const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact)));
+  const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact, all)));
   return [...new Set([...ofPlots, ...stripChannels(mechanics)])];
 }
 
