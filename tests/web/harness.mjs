@@ -12,7 +12,7 @@ import {fileURLToPath} from 'node:url';
 import {chromium} from 'playwright-core';
 
 const ROOT = fileURLToPath(new URL('../../', import.meta.url));
-const BINARY = process.env.CONTACTD ?? join(ROOT, 'build/release/server/contactd');
+export const BINARY = process.env.CONTACTD ?? join(ROOT, 'build/release/server/contactd');
 const WEB = `${ROOT}client/web/dist`;
 export const PATIENCE_MS = 20_000;
 const ARGUMENTS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',

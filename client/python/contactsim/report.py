@@ -31,7 +31,7 @@ def report_page(runs: Sequence[Result], server: str, draw: bool = True) -> str:
              runs[0].scenario.title or runs[0].name)
     differences = _differences(runs, draw) if len(runs) > 1 else ""
     sections = "".join(_section(run, place, server, draw) for place, run in enumerate(runs))
-    return page(title, _contents(runs) + differences + sections)
+    return page(title, _contents(runs) + differences + sections + (_script() if draw else ""))
 
 
 def _contents(runs: Sequence[Result]) -> str:
@@ -83,11 +83,18 @@ def _figures(run: Result, place: int) -> str:
 
 
 def _inline(figure: Figure, name: str) -> str:
-    from .figures.files import inline, rendered  # Only figures need matplotlib.
+    from .figures.living import living  # Only figures need matplotlib.
 
     thin(_POINTS, figure)
     figure.sources = []
-    return f'<figure>{inline(rendered(figure, "svg"), name)}</figure>\n'
+    return living(figure, name)
+
+
+def _script() -> str:
+    from .figures.living import SCRIPT
+
+    return f"<p>Drag in a figure to zoom, double-click to see all of it; + − 0 and arrows do so, too. A point tells its " \
+           f"values, read off the drawing.</p>\n{SCRIPT}"
 
 
 def _warnings(job: job_pb2.Job) -> str:

@@ -63,7 +63,7 @@ def draw_panel(panel: Panel, ax: Axes, look: Look = Look(), key: Key | None = No
     _draw_bands(panel, ax)
     for curve in _merged(part for curve in panel.curves if not _is_shaded(curve, look)
                          for part in parted(curve)):
-        ax.plot(curve.x, curve.y, scalex=True, scaley=True, **look.line(curve))
+        ax.plot(curve.x, curve.y, scalex=True, scaley=True, label=curve.label or "_", **look.line(curve))
     _draw_shaded([parted(curve)[0] for curve in panel.curves if _is_shaded(curve, look)], ax, look)
     draw_coarse(panel, ax, look)
     for y in panel.dotted:

@@ -28,13 +28,13 @@ class _Scaled(ScalarFormatter):  # type: ignore[misc]  # matplotlib has no types
     def __init__(self, size: float) -> None:
         super().__init__(useOffset=False)
         self.set_scientific(False)
-        self._size = size
+        self.size = size
 
     def set_locs(self, locs: Any) -> None:
-        super().set_locs(np.asarray(locs) / self._size)
+        super().set_locs(np.asarray(locs) / self.size)
 
     def __call__(self, x: float, pos: int | None = None) -> str:
-        text: str = super().__call__(x / self._size, pos)
+        text: str = super().__call__(x / self.size, pos)
         return text
 
 

@@ -1,5 +1,6 @@
 // SVG, PNG and CSV of a plot.
 
+import {useEffect, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
 import {panelCsv, type Panel} from '../model/panel';
@@ -16,6 +17,9 @@ interface Props {
 
 const PNG_SCALE = 2;
 
+/** How the figures of the page are drawn, for its report. */
+export const drawings = new WeakMap<Element, () => Svg>();
+
 /** Draws an SVG into a PNG. */
 export async function pngOf(svg: string, width: number, height: number): Promise<Blob> {
   const image = new Image();
@@ -29,13 +33,15 @@ export async function pngOf(svg: string, width: number, height: number): Promise
 
 /** The three buttons of a figure. `title` tells them from those of other figures. */
 export function ExportButtons({title, name, svg, csv}: {title: string; name: string; svg: () => Svg; csv: () => string}) {
+  const place = useRef<HTMLSpanElement>(null);
+  useEffect(() => { drawings.set(place.current!.closest('figure')!, svg); });
   const file = name.replace(/[^\w.-]+/g, '-');
   const png = async () => {
     const {width, height, text} = svg();
     save(`${file}.png`, await pngOf(text, width, height));
   };
   return (
-    <span class="exports">
+    <span class="exports" ref={place}>
       <button type="button" aria-label={`${title} as SVG`}
         onClick={() => save(`${file}.svg`, new Blob([svg().text], {type: 'image/svg+xml'}))}>SVG</button>
       <button type="button" aria-label={`${title} as PNG`} onClick={() => void png()}>PNG</button>

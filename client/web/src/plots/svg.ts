@@ -58,7 +58,7 @@ function axis(frame: Frame, place: 0 | 1, label: string): string {
     const at = place === 0 ? frame.x(value) : frame.y(value);
     const line = place === 0 ? `M${r(at)} ${r(top)}V${r(bottom + 5)}` : `M${r(left - 5)} ${r(at)}H${r(left + width)}`;
     const text = place === 0 ? `x="${r(at)}" y="${r(bottom + 18)}" text-anchor="middle"` : `x="${r(left - 8)}" y="${r(at + 4)}" text-anchor="end"`;
-    return [`<path d="${line}" stroke="#ddd"/>`, texts[i] ? `<text ${text}>${escape(String(texts[i]))}</text>` : ''];
+    return [`<path class="tick" d="${line}" stroke="#ddd"/>`, texts[i] ? `<text class="tick" ${text}>${escape(String(texts[i]))}</text>` : ''];
   });
   const name = place === 0
     ? `<text x="${r(left + width / 2)}" y="${r(bottom + 36)}" text-anchor="middle" font-weight="600">`
@@ -71,10 +71,17 @@ function strokeOf({mark, colour}: Curve): string {
   return `stroke="${colourOf(colour, 'light')}" stroke-width="1.5"${dash.length ? ` stroke-dasharray="${dash.join(' ')}"` : ''}`;
 }
 
-function dots({x: xs, y: ys, colour}: Curve, x: Frame['x'], y: Frame['y']): string {
-  const path = Array.from(xs, (value, i) => `M${r(x(value) + 2)} ${r(y(ys[i]!))}a2 2 0 1 0 -4 0a2 2 0 1 0 4 0`).join('');
-  return `<path d="${path}" fill="${colourOf(colour, 'light')}" stroke="#fff" stroke-width="0.7"/>`;
+const circle = (size: number) => `M${size} 0a${size} ${size} 0 1 0 ${-2 * size} 0a${size} ${size} 0 1 0 ${2 * size} 0`;
+const MARKS = `<path id="start" d="${circle(4)}"/><path id="end" d="M-4 -4l8 8m0 -8l-8 8"/><path id="linePoints" d="${circle(3)}"/><path id="points" d="${circle(2)}"/>`;
+
+/** A mark at each point. */
+function marksOf({mark, x: xs, y: ys}: Curve, x: Frame['x'], y: Frame['y']): string {
+  return Array.from(xs, (value, i) => [x(value), y(ys[i]!)]).filter((at) => at.every(Number.isFinite))
+    .map(([a, b]) => `<use href="#${mark}" x="${r(a!)}" y="${r(b!)}"/>`).join('');
 }
+
+const dots = (curve: Curve, x: Frame['x'], y: Frame['y']): string =>
+  `<g fill="${colourOf(curve.colour, 'light')}" stroke="#fff" stroke-width="0.7">${marksOf(curve, x, y)}</g>`;
 
 /** Tiny dots: samples that no line joins. */
 function rare(points: [number, number][], colour: number, {x, y}: Frame): string {
@@ -87,19 +94,17 @@ function curve(frame: Frame, drawn: Curve): string {
   const {mark, x: xs, y: ys, loose = []} = drawn;
   if ((mark === 'start' || mark === 'end') && crowded(u, drawn)) return '';
   if (mark === 'points') return dots(drawn, x, y);
+  if (mark === 'start' || mark === 'end') return `<g ${strokeOf(drawn)}>${marksOf(drawn, x, y)}</g>`;
   if (mark === 'rare') return rare(Array.from(xs, (at, i) => [at, ys[i]!]), drawn.colour, frame);
   let path = '';
   let pen = 'M';
   for (let i = 0; i < xs.length; ++i) {
     const [a, b] = [x(xs[i]!), y(ys[i]!)];
     if (!Number.isFinite(a) || !Number.isFinite(b)) continue;
-    if (mark === 'start') path += `M${r(a + 4)} ${r(b)}a4 4 0 1 0 -8 0a4 4 0 1 0 8 0`;
-    else if (mark === 'end') path += `M${r(a - 4)} ${r(b - 4)}l8 8m0 -8l-8 8`;
-    else if (isLoose(loose, xs[i]!)) pen = 'M';
+    if (isLoose(loose, xs[i]!)) pen = 'M';
     else { path += `${pen}${r(a)} ${r(b)}`; pen = 'L'; }
-    if (mark === 'linePoints') path += `m3 0a3 3 0 1 0 -6 0a3 3 0 1 0 6 0m-3 0`;
   }
-  return `<path d="${path}" ${strokeOf(drawn)}/>${rare(rarePoints(drawn), drawn.colour, frame)}`;
+  return `<path d="${path}" ${strokeOf(drawn)}/>${mark === 'linePoints' ? `<g ${strokeOf(drawn)}>${marksOf(drawn, x, y)}</g>` : ''}${rare(rarePoints(drawn), drawn.colour, frame)}`;
 }
 
 function waterfall({x, y: at}: Frame, raster: Raster): string {
@@ -142,7 +147,7 @@ function behind(frame: Frame, panel: Panel): string {
 function bars({x, left, top, width}: Frame, {lanes = []}: Panel): string {
   return lanes.flatMap(({bars: all, colour}, i) => all.map(({start, end}) => {
     const [from, to] = [Math.max(x(start), left), Math.min(x(end), left + width)];
-    return to > from ? `<rect x="${r(from)}" y="${r(top - (lanes.length - i) * LANE_PX)}" width="${r(Math.max(to - from - 1, 1))}" height="${LANE_PX - 2}" fill="${colourOf(colour, 'light')}"/>` : '';
+    return to > from ? `<rect class="label" x="${r(from)}" y="${r(top - (lanes.length - i) * LANE_PX)}" width="${r(Math.max(to - from - 1, 1))}" height="${LANE_PX - 2}" fill="${colourOf(colour, 'light')}"/>` : '';
   })).join('');
 }
 
@@ -154,7 +159,7 @@ function names(frame: Frame, panel: Panel): string {
     : curves.filter((c) => c.keyed !== false && (c.mark === 'line' || c.mark === 'rare')).map((c, i) => ({curve: c, y: top + 14 + 15 * i}));
   return [
     ...named.map(({curve: c, y}) => `<text x="${r(left + (overTime ? width + 5 : 10))}" y="${r(y + 4)}" fill="${colourOf(c.colour, 'light')}">${escape(overTime ? shortName(c.label) : c.label)}</text>`),
-    ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555">${escape(text)}</text>`),
+    ...placed.map(({x, y, text}) => `<text x="${r(Math.max(x, left))}" y="${r(y - 5)}" fill="#555" class="label">${escape(text)}</text>`),
   ].join('');
 }
 
@@ -188,6 +193,17 @@ function keyOf(panel: Panel, named: boolean, left: number, room: number): {lines
   return {lines: places.length > 0 ? line + 1 : 0, draw};
 }
 
+/** What living.js reads of the axes. */
+function axesOf({u, left, top, width, height}: Frame, panel: Panel): string {
+  const scale = (name: 'x' | 'y', label: string, log: boolean | undefined) => {
+    const {factor, label: shown} = unitOfScale(u, name, label);
+    const {min, max} = u.scales[name]!;
+    return {ends: [min! / factor, max! / factor, log ? 1 : 0], shown};
+  };
+  const [x, y] = [scale('x', panel.xLabel, panel.logX), scale('y', panel.yLabel, panel.logY)];
+  return escape(JSON.stringify([{box: [left, top, width, height], x: x.ends, y: y.ends, names: [x.shown, y.shown], size: 12}]));
+}
+
 /** The plot as it is shown now. `source` stands below it. */
 export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
   const frame = frameOf(u);
@@ -198,11 +214,11 @@ export function svgOf(panel: Panel, u: uPlot, source: string): Svg {
   const foot = u.height + TITLE_PX + LINE_PX;
   const height = foot + LINE_PX * (key.lines + notes.length - 1) + FOOT_PX;
   const clip = `<clipPath id="in"><rect x="${r(frame.left)}" y="${r(frame.top)}" width="${r(frame.width)}" height="${r(frame.height)}"/></clipPath>`;
-  const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12">
-<desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}${HATCH}</defs>
+  const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="12" data-axes="${axesOf(frame, panel)}">
+<desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/><defs>${clip}${HATCH}${MARKS}</defs>
 <text x="${r(frame.left)}" y="18" font-size="14" font-weight="600">${escape(panel.title)}</text>
 <g>${bars(frame, panel)}${axis(frame, 0, panel.xLabel)}${axis(frame, 1, panel.yLabel)}</g>
-<g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => curve(frame, c)).join('')}</g>
+<g fill="none" clip-path="url(#in)" stroke-linejoin="round">${behind(frame, panel)}${panel.curves.map((c) => `<g data-name="${escape(c.label)}">${curve(frame, c)}</g>`).join('')}</g>
 <g>${names(frame, panel)}${stampOn(frame, panel)}</g>
 <g fill="none">${key.draw(foot)}</g>
 ${notes.map((text, i) => `<text x="${r(frame.left)}" y="${r(foot + LINE_PX * (key.lines + i))}" font-size="10" fill="#666">${escape(text)}</text>`).join('')}</svg>`;

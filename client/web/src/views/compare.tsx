@@ -16,6 +16,7 @@ import {Plot} from '../plots/plot';
 import {CopyLink} from '../ui/copy';
 import {LeftOut} from '../ui/left_out';
 import {setPlayhead} from '../ui/playhead';
+import {SaveReport} from '../ui/save_report';
 import {setQuery, type Route} from '../ui/route';
 import {StateBadge} from '../ui/state_badge';
 import {useAsync} from '../ui/use_async';
@@ -148,7 +149,7 @@ export function Compare({route: {query}}: {route: Route}) {
   useEffect(() => { if (value) setJobs(value); }, [value]);
   return (
     <>
-      <div class="head"><h1>Compare</h1><Picker jobs={ids} />{ids.length > 0 && <span class="actions"><CopyLink /></span>}</div>
+      <div class="head"><h1>Compare</h1><Picker jobs={ids} />{ids.length > 0 && <span class="actions"><CopyLink /><SaveReport jobs={ids.map((id) => `jobs/${id}`)} /></span>}</div>
       {error !== undefined && <p class="notice" role="alert">{explain(error)}</p>}
       {ids.length === 0 && <p class="nothing">Choose runs here, or mark them in the <a href="/runs">list</a>. The first one is the baseline.</p>}
       <ul class="chips">{jobs.map((job) => (

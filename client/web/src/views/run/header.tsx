@@ -11,6 +11,7 @@ import type {RunState} from '../../model/runState';
 import {count} from '../../model/numbers';
 import {CopyLink} from '../../ui/copy';
 import {go} from '../../ui/route';
+import {SaveReport} from '../../ui/save_report';
 import {StateBadge} from '../../ui/state_badge';
 import {Twice} from '../../ui/twice';
 import {elapsed, partOf} from '../elapsed';
@@ -25,6 +26,7 @@ function Actions({id, ended, onError}: {id: string; ended: boolean; onError: (wh
       <a class="button" href={`/new?from=${id}`}>Run again with changes</a>
       <a class="button" href={`/compare?jobs=${id}`}>Compare</a>
       <CopyLink />
+      {ended && <SaveReport jobs={[name]} />}
       {!ended && <Twice key="cancel" first="Cancel run …" then="Cancel for good" stay="Go on" act={() => void attempt(server.cancelJob({name}))} />}
       {ended && <Twice key="delete" first="Delete …" then="Delete for good" stay="Keep" act={() => void attempt(server.deleteJob({name}), () => go('/runs'))} />}
     </span>
