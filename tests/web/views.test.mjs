@@ -113,25 +113,25 @@ test('runs are grouped by a label, which stands in the address, and are saved as
 });
 
 test('a run is renamed on its page, and pinned at the top of the list until it is unpinned', async () => {
-  const first = await server.submit({...BALL, title: 'Ball one'});
-  await server.submit({...BALL, title: 'Ball two'});
+  const first = await server.submit({...BALL, title: 'Sphere one'});
+  await server.submit({...BALL, title: 'Sphere two'});
   await open(`/runs/${first}`);
   await page.getByRole('button', {name: 'Rename, add labels or a note'}).click();
-  await page.getByRole('textbox', {name: 'Title'}).fill('Ball named');
+  await page.getByRole('textbox', {name: 'Title'}).fill('Sphere named');
   await page.getByRole('button', {name: 'Store'}).click();
-  await page.getByRole('heading', {name: 'Ball_named'}).waitFor();
-  await hold(async () => await page.title() === 'Ball_named · contactd');
+  await page.getByRole('heading', {name: 'Sphere_named'}).waitFor();
+  await hold(async () => await page.title() === 'Sphere_named · contactd');
   const labels = async () => (await server.call('GetJob', {name: `jobs/${first}`})).labels;
-  assert.deepEqual(await labels(), {title: 'Ball_named'});
-  await open(`/runs?q=ball&sort=title&chosen=${first}`);
-  const order = async () => (await page.locator('.runs td.title a').allInnerTexts()).filter((text) => /^Ball (two)|Ball_/.test(text)).join();
-  await hold(async () => await order() === 'Ball two,Ball_named');
+  assert.deepEqual(await labels(), {title: 'Sphere_named'});
+  await open(`/runs?q=sphere&sort=title&chosen=${first}`);
+  const order = async () => (await page.locator('.runs td.title a').allInnerTexts()).join();
+  await hold(async () => await order() === 'Sphere two,Sphere_named');
   await page.getByRole('button', {name: 'Pin 1 run'}).click();
-  await hold(async () => await order() === 'Ball_named,Ball two');
+  await hold(async () => await order() === 'Sphere_named,Sphere two');
   await page.reload();
   await page.getByRole('button', {name: 'Unpin 1 run'}).click();
-  await hold(async () => await order() === 'Ball two,Ball_named');
-  assert.deepEqual(await labels(), {title: 'Ball_named'});
+  await hold(async () => await order() === 'Sphere two,Sphere_named');
+  assert.deepEqual(await labels(), {title: 'Sphere_named'});
 });
 
 test('a note is written on the page of a run, stays while it is not stored, and stands in the list', async () => {
