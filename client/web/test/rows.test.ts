@@ -1,6 +1,7 @@
 import {create} from '@bufbuild/protobuf';
 import {describe, expect, it} from 'vitest';
 
+import {CycleSchema} from '../src/api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
 import type {RunView} from '../src/model/curves';
@@ -71,8 +72,8 @@ describe('a wave through a row of bodies', () => {
   });
   it('stands in its row of the scenario, if only every n-th is there', () => {
     const rows = [0, 1, 2].map((i) => ({name: `${i}`, values: pulse(1, 1)}));
-    const raster = {time, rows, label: 'x [1]', largest: 3, every: 10};
-    expect([rowRange(raster), waterfallOf(raster).map(({row}) => row), Math.max(...waterfallOf(raster)[0]!.y)]).toEqual([[-4, 26], [21, 11, 1], 41]);
+    const raster = {time, rows, label: 'x [1]', largest: 3, every: 10, first: 50};
+    expect([rowRange(raster), waterfallOf(raster).map(({row}) => row), Math.max(...waterfallOf(raster)[0]!.y)]).toEqual([[46, 76], [71, 61, 51], 91]);
   });
   it('has its own values in the file', () => {
     const lines = panelCsv(panelOf('velocity-waterfall', run(() => -1))).split('\n');
@@ -84,8 +85,9 @@ describe('a wave through a row of bodies', () => {
     expect(ids(few)).toEqual([]);
     expect(ids(run(() => 1).mechanics)).toEqual(['force-map', 'velocity-map', 'force-waterfall', 'velocity-waterfall']);
     const long = {...run(() => 1).mechanics, contacts: Array.from({length: 10_000}, (_, i) => ({name: `C${i}`}))} as unknown as Mechanics;
-    const maps = presetsAsked(long, true).filter(({many}) => many).map(({many, channels}) => channels(thinned(long, many!, true)).length);
-    expect([thinned(long, 'contacts', false).every, thinned(long, 'contacts', false).contacts.length, maps]).toEqual([34, 295, [139, 20, 139, 20]]);
+    const maps = presetsAsked(long, true).filter(({many}) => many).map(({many, channels}) => channels(thinned(long, many!, true, [])).length);
+    const hit = (...places: number[]) => { const {first, every, contacts} = thinned(long, 'contacts', false, places.map((i) => create(CycleSchema, {contact: `C${i}`}))); return [first, every, contacts.length]; };
+    expect([hit(), hit(40, 72), hit(0, 9999), maps]).toEqual([[0, 34, 295], [40, 1, 33], [0, 34, 295], [139, 20, 139, 20]]);
     const asked = (all: boolean) => presetsAsked(run(() => 1).mechanics, all).filter(({many}) => many).length;
     expect([asked(false), asked(true)]).toEqual([1, 4]);
   });

@@ -31,7 +31,8 @@ export interface Mechanics {
   bodies: BodyModel[];
   contacts: ContactModel[];
   clipTension: boolean;
-  /** Which of its contacts or bodies are here, where there are too many: every n-th. */
+  /** Which of its contacts or bodies are here, where there are too many: from which place on, and every n-th. */
+  first?: number;
   every?: number;
 }
 

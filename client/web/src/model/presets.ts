@@ -111,12 +111,12 @@ function rowsOf(view: RunView, moving: boolean, lines: boolean): Panel {
   const {factor, label} = readableUnit(quantity, largest);
   const most = `${short(largest / factor)} ${unitOf(label)}`;
   const both = low < 0;
-  const {every = 1} = mechanics;
+  const {every = 1, first = 0} = mechanics;
   const colour = both ? `from −${most} (blue) over 0 (white) to ${most} (red)` : `from 0 (dark) to ${most} (bright)`;
   return {
     id, title: look.titles[id],
-    xLabel: 'time [s]', yLabel: each, overTime: true, stamp: stampOf(view), countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines, every},
-    note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest${every > 1 ? `; one of every ${every} ${moving ? 'bodies' : 'contacts'}` : ''}`,
+    xLabel: 'time [s]', yLabel: each, overTime: true, stamp: stampOf(view), countedY: true, curves: [], raster: {time: values(series, 'time'), rows, label: quantity, largest, both, lines, every, first},
+    note: `${lines ? `each line rises from its row, and ${most} is as high as two lines are apart; coloured by place` : `colour: ${quantity.split(' ')[0]} ${colour}`}; ${moving ? 'bodies' : 'contacts'} in the order of the scenario, the first one lowest${mechanics.first === undefined || moving ? '' : `, from ${first + 1} to ${first + 1 + (rows.length - 1) * every}`}${every > 1 ? `; one of every ${every} ${moving ? 'bodies' : 'contacts'}` : ''}`,
   };
 }
 
@@ -218,11 +218,24 @@ export function presetsFor(mechanics: Mechanics): Preset[] {
   return PRESETS.filter(({many}) => !many || mechanics[many].length > MOST_CONTACTS);
 }
 
-/** The scenario with as many of its contacts or bodies as a map has rows: every n-th, from the first on. */
-export function thinned(mechanics: Mechanics, many: 'contacts' | 'bodies', all: boolean): Mechanics {
-  const count = mechanics[many].length;
-  const every = Math.ceil(count / (all ? LEAST_ROWS : count > MOST_ROWS ? FEW_ROWS : MOST_ROWS));
-  return every === 1 ? mechanics : {...mechanics, every, [many]: mechanics[many].filter((_: unknown, i: number) => i % every === 0)};
+/** The contacts from the first to the last that has a cycle; all if none has. */
+function touched({contacts}: Mechanics, cycles: Cycle[]): [number, number] {
+  const names = new Set(cycles.map(({contact}) => contact));
+  const places = contacts.flatMap(({name}, i) => (names.has(name) ? [i] : []));
+  return places.length > 0 ? [places[0]!, places.at(-1)! + 1] : [0, contacts.length];
+}
+
+/**
+ * The scenario with as many of its contacts or bodies as a map has rows. Of too many contacts those that were touched, as
+ * far as `cycles` are all there are, and of still too many every n-th.
+ */
+export function thinned(mechanics: Mechanics, many: 'contacts' | 'bodies', all: boolean, cycles: Cycle[]): Mechanics {
+  const list: {name: string}[] = mechanics[many];
+  const room = (count: number) => (all ? LEAST_ROWS : count > MOST_ROWS ? FEW_ROWS : MOST_ROWS);
+  if (list.length <= room(list.length)) return mechanics;
+  const [first, end] = many === 'contacts' ? touched(mechanics, cycles) : [0, list.length];
+  const every = Math.ceil((end - first) / room(end - first));
+  return {...mechanics, first, every, [many]: list.slice(first, end).filter((_, i) => i % every === 0)};
 }
 
 /** Those of which the columns are asked for: where there are many, only as far as they are shown. */

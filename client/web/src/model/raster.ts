@@ -11,6 +11,8 @@ export interface Raster {
   label: string;
   /** How many rows further in the scenario the next one is; 1 if not told. */
   every?: number;
+  /** How many stand before the first one; 0 if not told. */
+  first?: number;
   /** The largest magnitude. */
   largest: number;
   /** True where values lie on both sides of 0: blue below it, red above it. */
@@ -84,24 +86,24 @@ export interface RowLine {
 }
 
 /** A line for each row, of many rows every n-th, coloured by its place. From the top down, so that each lies over the one behind it. */
-export function waterfallOf({rows, largest, every = 1}: Raster, dark = false): RowLine[] {
+export function waterfallOf({rows, largest, every = 1, first: before = 0}: Raster, dark = false): RowLine[] {
   const step = Math.ceil(rows.length / MOST_LINES);
   const places = rows.map((_, i) => i).filter((i) => i % step === 0);
   const unit = HEIGHT * step * every / (largest || 1);
   const [first, last] = dark ? ON_DARK : SHADES;
   return places.map((i, place) => ({
-    row: 1 + i * every,
+    row: before + 1 + i * every,
     colour: viridis(first + (last - first) * place / Math.max(places.length - 1, 1)),
-    y: Float64Array.from(rows[i]!.values, (value) => 1 + i * every + unit * value),
+    y: Float64Array.from(rows[i]!.values, (value) => before + 1 + i * every + unit * value),
   })).reverse();
 }
 
 /** What of the axis of rows is shown. */
 export function rowRange(raster: Raster): [number, number] {
-  const {every = 1, rows: {length}} = raster;
-  const last = 1 + (length - 1) * every;
-  if (!raster.lines) return [1 - every / 2, last + every / 2];
-  const [low, high] = extent(waterfallOf(raster).map(({y}) => y)) ?? [1, last];
+  const {every = 1, first: before = 0, rows: {length}} = raster;
+  const [first, last] = [before + 1, before + 1 + (length - 1) * every];
+  if (!raster.lines) return [first - every / 2, last + every / 2];
+  const [low, high] = extent(waterfallOf(raster).map(({y}) => y)) ?? [first, last];
   const step = every * Math.ceil(length / MOST_LINES);
-  return [Math.min(low, 1) - 0.5 * step, Math.max(high, last) + 0.3 * step];
+  return [Math.min(low, first) - 0.5 * step, Math.max(high, last) + 0.3 * step];
 }

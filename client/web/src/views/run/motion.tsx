@@ -6,6 +6,7 @@ import {bandsOf, type RunPart} from '../../model/curves';
 import {MOST_CONTACTS, presetsShown, thinned, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import {withMeasured, type Measured as MeasuredPoints} from '../../model/overlay';
+import type {Cycle} from '../../api/generated/contact/v1/job_pb';
 import type {Series} from '../../api/series';
 import type {RunState} from '../../model/runState';
 import {isFinal} from '../../api/watch';
@@ -27,11 +28,13 @@ interface Props {
   whole: Window;
   source: string;
   measured: MeasuredPoints | undefined;
+  /** The cycles of a run that is over. */
+  ended: Cycle[];
 }
 
-/** The part of a scenario that fits a plot. Maps and waterfalls are of all bodies, or of every n-th. */
-export function partFor({many}: Preset, mechanics: Mechanics, contact: string | null, all: boolean): Mechanics {
-  return many ? thinned(mechanics, many, all) : crop(mechanics, contact);
+/** The part of a scenario that fits a plot; `ended` are the cycles of a run that is over. Maps and waterfalls are of all bodies, or of every n-th. */
+export function partFor({many}: Preset, mechanics: Mechanics, contact: string | null, all: boolean, ended: Cycle[]): Mechanics {
+  return many ? thinned(mechanics, many, all, ended) : crop(mechanics, contact);
 }
 
 function crop(mechanics: Mechanics, contact: string | null): Mechanics {
@@ -67,6 +70,7 @@ interface PresetProps {
   contact: string | null;
   /** Whether all plots are shown. */
   all: boolean;
+  ended: Cycle[];
   drawn: Window | undefined;
   measured: MeasuredPoints | undefined;
   source: string;
@@ -74,8 +78,8 @@ interface PresetProps {
   empty: string;
 }
 
-function PresetPlot({preset, mechanics: whole, part, contact, all, measured, drawn, ...rest}: PresetProps) {
-  const mechanics = useMemo(() => partFor(preset, whole, contact, all), [whole, contact, all]);
+function PresetPlot({preset, mechanics: whole, part, contact, all, ended, measured, drawn, ...rest}: PresetProps) {
+  const mechanics = useMemo(() => partFor(preset, whole, contact, all, ended), [whole, contact, all, ended]);
   const panel = useMemo(() => preset.panel({mechanics, ...part}), [part, mechanics]);
   const shown = useMemo(() => withMeasured(panel, measured, drawn), [panel, measured, drawn?.[0], drawn?.[1]]);
   return <Plot panel={shown} window={drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} {...(preset.many ? {height: MAP_PX} : {})} />;
@@ -127,7 +131,7 @@ function Cropped({mechanics, contact}: {mechanics: Mechanics; contact: string | 
 }
 
 export function Motion(props: Props) {
-  const {mechanics, query, window, drawn, whole, run, source, measured} = props;
+  const {mechanics, query, window, drawn, whole, run, source, measured, ended} = props;
   const all = query.get('plots') === 'all';
   const contact = query.get('contact');
   const part = usePart(props);
@@ -135,7 +139,7 @@ export function Motion(props: Props) {
   const looped = useMemo(() => ({...part, loops}), [part, loops]);
   const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
   const plots = useMemo(() => presetsShown(mechanics, all, measured).map((preset) => (
-    <PresetPlot key={preset.id} {...{preset, mechanics, contact, all, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, looped, drawn, measured, source, empty]);
+    <PresetPlot key={preset.id} {...{preset, mechanics, contact, all, ended, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, ended, looped, drawn, measured, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>

@@ -8,6 +8,7 @@ import type {Measured} from '../../model/overlay';
 import {presetsAsked} from '../../model/presets';
 import {titleOf} from '../../model/remarks';
 import type {RunState} from '../../model/runState';
+import type {Cycle} from '../../api/generated/contact/v1/job_pb';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
 import {LinkNote} from '../../ui/link_note';
@@ -25,9 +26,9 @@ import {useSeries} from './use_series';
 import {windowOf} from './window';
 
 /** The columns of all plots and the strip, each once. */
-function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean): string[] {
+function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean, ended: Cycle[]): string[] {
   if (mechanics.scenario.output?.ledgerOnly) return [];
-  const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact, all)));
+  const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact, all, ended)));
   return [...new Set([...ofPlots, ...stripChannels(mechanics)])];
 }
 
@@ -40,7 +41,8 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const window = windowOf(query, newest);
   const source = [titleOf(run.job!), `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
   const all = query.get('plots') === 'all';
-  const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all), [mechanics, query.get('contact'), all]);
+  const ended = useMemo(() => (isFinal(run.state) ? run.cycles : []), [isFinal(run.state) && run.cycles.length]);
+  const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all, ended), [mechanics, query.get('contact'), all, ended]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
   const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.
@@ -55,7 +57,7 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
       {recorded && strip}
       {iterations}
       {measurements}
-      {recorded ? <Motion run={run} mechanics={mechanics} measured={measured} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {recorded ? <Motion run={run} ended={ended} mechanics={mechanics} measured={measured} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
       {ledger}
     </>
