@@ -83,6 +83,15 @@ describe('rare samples', () => {
     expect(spreadOf(panel).map(({low, high}) => [low, high])).toEqual([[expect.closeTo(-1, 2), expect.closeTo(5, 2)]]);
     expect(panel.note).toContain('pale: range of samples too rare to show the motion');
   });
+  it('are looked for once in a curve, which is drawn again and again', () => {
+    let reads = 0;
+    const y = new Proxy([0, 3, 1, 4, 2, 5], {get: (all, place) => { ++reads; return Reflect.get(all, place) as unknown; }});
+    const panel = {id: 'p', title: '', xLabel: '', yLabel: '', overTime: true, curves: [{label: 'c', colour: 0, mark: 'line' as const, x: [0, 1, 2, 3, 4, 5], y, loose: [{start: 0, end: 9}]}]};
+    const first = [spreadOf(panel), rarePoints(panel.curves[0]!)];
+    expect([first[0]!.length, reads > 5]).toEqual([1, true]);
+    reads = 0;
+    expect([spreadOf(panel), rarePoints(panel.curves[0]!), reads]).toEqual([...first, 0]);
+  });
   it('leave room for the peaks of the ledger', () => {
     expect(yRange(panelOf('force', bouncing({period: 0.1, samples: 60})), [0, 1])[1]).toBeGreaterThan(9);
   });

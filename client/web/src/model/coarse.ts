@@ -134,21 +134,35 @@ function swings(points: [number, number][]): boolean {
   return known.length > 2 && travel(known, 0, known.length - 1) > SWING * (high - low);
 }
 
-/** The points of a curve that no line joins, unless they swing. What is dashed goes with another curve, and has none. */
-export function rarePoints(curve: Curve): [number, number][] {
-  if (curve.mark === 'dashed') return [];
-  return (curve.loose ?? []).map((span) => within(curve, span)).filter((points) => !swings(points)).flat();
+/** What is shown of a curve where its samples are too rare to be joined. */
+interface Loose {
+  points: [number, number][];
+  spreads: (Band & {low: number; high: number})[];
 }
+
+const known = new WeakMap<Curve, Loose>();   // Curves do not change, and are drawn again and again.
+
+function looseOf(curve: Curve): Loose {
+  let found = known.get(curve);
+  if (found) return found;
+  known.set(curve, found = {points: [], spreads: []});
+  for (const span of curve.loose ?? []) {
+    const points = within(curve, span);
+    const [low, high] = extent([points.map(([, y]) => y)]) ?? [0, 0];
+    if (swings(points)) found.spreads.push({...span, low, high});
+    else found.points.push(...points);
+  }
+  return found;
+}
+
+/** The points of a curve that no line joins, unless they swing. What is dashed goes with another curve, and has none. */
+export const rarePoints = (curve: Curve): [number, number][] => (curve.mark === 'dashed' ? [] : looseOf(curve).points);
 
 /** Between which values the points of each curve are that swings where they are too rare, unless the ledger tells it. */
 export function spreadOf({curves, ranges = []}: Panel): Range[] {
   const told = new Set(ranges.map(({label}) => label));
-  return curves.filter(({mark, label}) => mark === 'line' && !told.has(label)).flatMap((curve) => (curve.loose ?? []).flatMap((span) => {
-    const points = within(curve, span);
-    if (!swings(points)) return [];
-    const [low, high] = extent([points.map(([, y]) => y)])!;
-    return [{label: curve.label, colour: curve.colour, ...span, low, high}];
-  }));
+  return curves.filter(({mark, label}) => mark === 'line' && !told.has(label))
+    .flatMap((curve) => looseOf(curve).spreads.map((spread) => ({label: curve.label, colour: curve.colour, ...spread})));
 }
 
 /** The cycles whose starts and ends are marked: where samples are rarer than contacts, marks hide all. */
