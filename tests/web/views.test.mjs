@@ -329,6 +329,27 @@ test('a job of an older server has all its plots but that of energies, which say
   assert.ok(Math.max(...sums) - Math.min(...sums) < 1e-9 * 0.5 * 0.5 * 0.2 ** 2, 'the balance is constant');
 });
 
+test('plots, their order, powers of ten and Δμ/μ are chosen, and stand in the address', async () => {
+  await open(`/runs/${chain}`);
+  await drawn();
+  const shown = () => page.locator('[aria-label="Motion"] .plot').evaluateAll((plots) => plots.map((plot) => plot.dataset.plot).join());
+  await page.getByText('Choose plots').click();
+  for (const name of ['Velocity', 'Deformation', 'Displacement', 'Hysteresis', 'Contact force']) await page.getByLabel(name, {exact: true}).uncheck();
+  await hold(async () => await shown() === 'energy');
+  await page.getByLabel('Contact force', {exact: true}).check();
+  await hold(async () => await shown() === 'energy,force');
+  assert.equal(ofAddress('plots'), 'energy,force');
+  await page.getByRole('button', {name: 'Contact force, logarithmic'}).click();
+  await page.locator('[data-plot="force"] .note').getByText('of what is above 0').waitFor();
+  await page.getByLabel('Δμ/μ').check();
+  await page.locator('[data-plot="mu"] .note').getByText('from the last pass').waitFor();
+  await page.reload();
+  await hold(async () => await shown() === 'energy,force' && await points('force') > 100);
+  assert.deepEqual([ofAddress('logs'), ofAddress('relative')], ['force', '1']);
+  assert.match(await fileOf('Contact force', 'SVG'), />10[⁰¹²³⁴⁻]+</);
+  assert.match(await fileOf('Damping factor', 'CSV'), /^curve,pass,Δμ\/μ \[1\]/);
+});
+
 test('a point of the line of a sweep is chosen and becomes a run', async () => {
   const {name} = await server.call('CreateJob', {job: {sweep: {base: CHAIN, metrics: ['iterations', 'cycles[B1-B2].alpha'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}]}}});

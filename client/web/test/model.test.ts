@@ -16,7 +16,7 @@ import {bestOf, chosenOf, grouped, groupOf, JobList, labelKeys, labelsOf, METRIC
 import {fieldsOf, varyingFields} from '../src/model/job_fields';
 import {endForce, mechanicsOf} from '../src/model/mechanics';
 import {insideOf, interpolate, joined, panelCsv, travel} from '../src/model/panel';
-import {PRESETS} from '../src/model/presets';
+import {PRESETS, presetsShown} from '../src/model/presets';
 import {parseMetrics} from '../src/model/prometheus';
 import {titleOf} from '../src/model/remarks';
 import {emptyRun, MOST_ITERATIONS, takeEvents} from '../src/model/runState';
@@ -183,6 +183,11 @@ describe('the list of jobs', () => {
     expect(list.sorted().map(({name}) => name)).toEqual(['x']);
     take({gone: ['x'], snapshotComplete: true});
     expect(list.sorted()).toEqual([]);
+  });
+  it('chooses plots in the order of the address', () => {
+    const mechanics = mechanicsOf(create(ScenarioSchema, {bodies: [{name: 'a'}, {name: 'b'}], contacts: [{between: ['a', 'b']}]}));
+    const ids = (chosen: string) => presetsShown(mechanics, chosen, undefined).map(({id}) => id).join();
+    expect([ids('energy,velocity,none'), ids('').split(',').length, ids('all').split(',').length > 8]).toEqual(['energy,velocity', 6, true]);
   });
   it('begins with what is pinned, then has groups, and calls runs by the label title', () => {
     const named = (name: string, labels: Record<string, string>) => create(JobSchema, {name, title: 'T', labels});

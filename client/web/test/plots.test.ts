@@ -2,13 +2,17 @@ import {create} from '@bufbuild/protobuf';
 import type uPlot from 'uplot';
 import {describe, expect, it} from 'vitest';
 
+import {IterationSchema} from '../src/api/generated/contact/v1/event_pb';
 import {CycleSchema} from '../src/api/generated/contact/v1/job_pb';
 import {ScenarioSchema} from '../src/api/generated/contact/v1/scenario_pb';
 import type {Series} from '../src/api/series';
+import {iterationPanels} from '../src/model/iterations';
 import {alongLoop, hysteresis, polygons} from '../src/model/hysteresis';
 import {mechanicsOf} from '../src/model/mechanics';
+import {logarithmic, type Panel} from '../src/model/panel';
 import {pixelsOf} from '../src/model/raster';
 import {unitOfScale} from '../src/plots/axes';
+import {yRange} from '../src/plots/range';
 
 const seriesOf = (columns: Record<string, number[]>): Series => new Map(Object.entries(columns).map(([name, values]) =>
   [name, {name, quantity: '', unit: '', values: Float64Array.from(values)}]));
@@ -22,6 +26,22 @@ describe('an axis', () => {
     const of = (distr: uPlot.Scale.Distr) => unitOfScale(plotOf({y: {min: 1e6, max: 1e11, distr}}), 'y', label);
     expect(of(1)).toEqual({factor: 1e9, label: 'μ [GN·s/mⁿ⁺¹]'});
     expect(of(3)).toEqual({factor: 1, label: 'μ [N·s/mⁿ⁺¹]'});
+  });
+});
+
+describe('powers of ten upwards', () => {
+  const panel: Panel = {id: 'p', title: '', xLabel: 'x', yLabel: 'y', overTime: true, note: 'n', curves: [{label: 'c', colour: 0, mark: 'line', x: [0, 1, 2, 3], y: [-1, 0, 2, 5]}]};
+  it('are of what is above 0', () => {
+    const {logY, curves, note} = logarithmic(panel);
+    expect([logY, curves[0]!.y, note, yRange(logarithmic(panel), [0, 3])]).toEqual([true, [null, null, 2, 5], 'n; of what is above 0', [1, 10]]);
+  });
+});
+
+describe('the passes of an episode', () => {
+  it('are told by how far μ is from its last value, if that is asked for', () => {
+    const iterations = [4, 1.001, 1].map((mu, number) => create(IterationSchema, {episode: 1, number, unknowns: [{contact: 'A', number: 1, mu, residual: 0.1}]}));
+    const [mu] = iterationPanels(iterations, 1, 'N·s/m', true);
+    expect([mu!.yLabel, mu!.logY, Array.from(mu!.curves[0]!.y)]).toEqual(['Δμ/μ [1]', undefined, [3, expect.closeTo(1e-3, 9), 0]]);
   });
 });
 

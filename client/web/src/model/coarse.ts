@@ -150,7 +150,7 @@ function looseOf(curve: Curve): Loose {
     const points = within(curve, span);
     const [low, high] = extent([points.map(([, y]) => y)]) ?? [0, 0];
     if (swings(points)) found.spreads.push({...span, low, high});
-    else found.points.push(...points);
+    else found.points = found.points.concat(points);
   }
   return found;
 }

@@ -77,8 +77,14 @@ function curvesOf(passes: Iteration[], value: (unknown: Iteration['unknowns'][nu
   return [...curves.values()];
 }
 
-/** The passes of one episode as two panels. */
-export function iterationPanels(iterations: Iteration[], episode: number, unit = muUnit([])): Panel[] {
+/** How far each value is from the last one of its curve, of which it is a part. */
+function toLast(curve: Curve): Curve {
+  const last = curve.y[curve.y.length - 1]!;
+  return {...curve, y: Array.from(curve.y, (value) => (value === last ? 0 : value / last - 1))};
+}
+
+/** The passes of one episode as two panels; of μ how far it is from its last value, if `relative`. */
+export function iterationPanels(iterations: Iteration[], episode: number, unit = muUnit([]), relative = false): Panel[] {
   const passes = iterations.filter((pass) => pass.episode === episode);
   const only = passes.length === iterations.length;
   const mu = curvesOf(passes, ({mu: value}) => value);
@@ -86,7 +92,8 @@ export function iterationPanels(iterations: Iteration[], episode: number, unit =
   const xLabel = only ? 'pass' : `pass of episode ${episode}`;
   const common = {xLabel, overTime: true, countedX: true};
   return [
-    {...common, id: 'mu', title: look.titles.mu, yLabel: `μ [${unit}]`, logY: haveManySizes(mu), curves: mu},
+    relative ? {...common, id: 'mu', title: look.titles.mu, yLabel: 'Δμ/μ [1]', curves: mu.map(toLast), note: 'Δμ: from the last pass'}
+      : {...common, id: 'mu', title: look.titles.mu, yLabel: `μ [${unit}]`, logY: haveManySizes(mu), curves: mu},
     {...common, id: 'residual', title: look.titles.residual, yLabel: '|W_r/W_c + ε²| [1]', logY: true, curves: residual},
   ];
 }

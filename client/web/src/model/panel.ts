@@ -82,6 +82,12 @@ export interface Panel {
   nothing?: string;
 }
 
+/** The panel with powers of ten upwards: what is not above 0 is not there. */
+export function logarithmic(panel: Panel): Panel {
+  const above = ({y}: Curve) => Array.from(y, (value) => (value > 0 ? value : null)) as number[];
+  return {...panel, logY: true, curves: panel.curves.map((curve) => ({...curve, y: above(curve)})), note: [panel.note, 'of what is above 0'].filter(Boolean).join('; ')};
+}
+
 /** Bands in order, those that touch or overlap as one. */
 export function joined(bands: Band[]): Band[] {
   const result: Band[] = [];

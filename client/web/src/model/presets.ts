@@ -207,10 +207,12 @@ export const PRESETS: Preset[] = [
   {id: 'velocity-waterfall', channels: ofBodies('velocity'), panel: (view) => rowsOf(view, true, true), many: 'bodies'},
 ];
 
-/** The plots of the page: the first ones, those of measured channels, or all. */
-export function presetsShown(mechanics: Mechanics, all: boolean, measured: Measured | undefined): Preset[] {
-  return presetsFor(mechanics).filter(({channels}, place) =>
-    all || place < FIRST || (measured && channels(mechanics).some((channel) => measured.has(channel))));
+/** The plots of the page: the first ones and those of measured channels, `all`, or those named in `chosen`, in its order. */
+export function presetsShown(mechanics: Mechanics, chosen: string, measured: Measured | undefined): Preset[] {
+  const presets = presetsFor(mechanics);
+  if (chosen && chosen !== 'all') return chosen.split(',').flatMap((id) => presets.find((preset) => preset.id === id) ?? []);
+  return presets.filter(({channels}, place) =>
+    chosen || place < FIRST || (measured && channels(mechanics).some((channel) => measured.has(channel))));
 }
 
 /** The plots that can be made of a scenario. */

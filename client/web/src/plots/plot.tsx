@@ -1,10 +1,11 @@
 // A panel with its key and its exports.
 
-import {useEffect, useLayoutEffect, useRef} from 'preact/hooks';
+import {useEffect, useLayoutEffect, useMemo, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
-import type {Panel} from '../model/panel';
+import {logarithmic, type Panel} from '../model/panel';
 import {useHidden} from '../ui/hidden';
+import {setQuery, useParameter} from '../ui/route';
 import {useTheme} from '../ui/theme';
 import type {Ink} from './axes';
 import {aligned, buildPlot, lines, type Shown} from './build';
@@ -85,7 +86,10 @@ function choosable({label, press, pick}: Choosing, plot: {current: uPlot | undef
   return {role: 'application' as const, tabIndex: 0, 'aria-label': label, onKeyDown: press, onClick: click};
 }
 
-export function Plot({panel, window: span, onZoom, height = 240, source, empty, choosing}: Props) {
+export function Plot({panel: given, window: span, onZoom, height = 240, source, empty, choosing}: Props) {
+  const logs = useParameter('logs');
+  const log = logs.includes(given.id);
+  const panel = useMemo(() => (log ? logarithmic(given) : given), [given, log]);
   const theme = useTheme();
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot>();
@@ -128,6 +132,8 @@ export function Plot({panel, window: span, onZoom, height = 240, source, empty, 
     <figure class="plot" data-plot={panel.id} data-points={panel.raster?.time.length ?? lines(panel)[0]?.x.length ?? 0}>
       <figcaption>
         <h3>{panel.title}</h3>
+        {panel.overTime && !panel.raster && (log || !panel.logY) && <button type="button" class="log" aria-pressed={log} aria-label={`${panel.title}, logarithmic`}
+          onClick={() => setQuery({logs: log ? logs.filter((id) => id !== given.id) : [...logs, given.id]})}>log</button>}
         <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
       <div ref={box} class={choosing ? 'canvas keys' : 'canvas'} {...(choosing ? choosable(choosing, plot) : {role: 'img', 'aria-label': namesOf(panel)})} />

@@ -100,6 +100,7 @@ function curve(frame: Frame, drawn: Curve): string {
   let pen = 'M';
   for (let i = 0; i < xs.length; ++i) {
     const [a, b] = [x(xs[i]!), y(ys[i]!)];
+    if (ys[i] === null) pen = 'M';   // A logarithm of what is not above 0.
     if (!Number.isFinite(a) || !Number.isFinite(b)) continue;
     if (isLoose(loose, xs[i]!)) pen = 'M';
     else { path += `${pen}${r(a)} ${r(b)}`; pen = 'L'; }

@@ -65,12 +65,14 @@ function Episode({run, episode, last, chosen}: {run: RunState; episode: number; 
 export function Iterations({run, query, source, unit}: Props) {
   const episode = useEpisode(run, query);
   const version = run.dropped + run.iterations.length;
-  const panels = useMemo(() => iterationPanels(run.iterations, episode, unit), [version, episode, unit]);
+  const relative = query.has('relative');
+  const panels = useMemo(() => iterationPanels(run.iterations, episode, unit, relative), [version, episode, unit, relative]);
   const episodes = useMemo(() => [...episodesOf(run.iterations).keys()], [version]);
   return (
     <section aria-label="Iterations">
       <div class="tools"><h2>Iteration of μ</h2>
         {(episodes.length > 1 || run.dropped > 0) && <Episode run={run} episode={episode} last={episodes.at(-1)!} chosen={query.has('episode')} />}
+        {run.iterations.length > 0 && <label><input type="checkbox" checked={relative} onChange={(e) => setQuery({relative: e.currentTarget.checked ? '1' : undefined})} /> Δμ/μ</label>}
       </div>
       <Kept {...run} />
       <div class="plots">

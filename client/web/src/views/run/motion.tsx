@@ -2,8 +2,10 @@
 
 import {useEffect, useMemo} from 'preact/hooks';
 
+import look from '../../../../python/contactsim/figures/words.json';
+
 import {bandsOf, type RunPart} from '../../model/curves';
-import {MOST_CONTACTS, presetsShown, thinned, type Preset} from '../../model/presets';
+import {MOST_CONTACTS, presetsFor, presetsShown, thinned, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import {withMeasured, type Measured as MeasuredPoints} from '../../model/overlay';
 import type {Cycle} from '../../api/generated/contact/v1/job_pb';
@@ -130,22 +132,34 @@ function Cropped({mechanics, contact}: {mechanics: Mechanics; contact: string | 
   );
 }
 
+/** Which plots there are, in the order in which they are chosen. */
+function Choice({mechanics, shown}: {mechanics: Mechanics; shown: string[]}) {
+  const toggle = (id: string, on: boolean) => setQuery({plots: [...shown.filter((other) => other !== id), ...(on ? [id] : [])].join(',')});
+  return (
+    <details class="choice"><summary>Choose plots</summary>
+      {presetsFor(mechanics).map(({id}) => <label key={id}><input type="checkbox" checked={shown.includes(id)} onChange={(e) => toggle(id, e.currentTarget.checked)} /> {look.titles[id as keyof typeof look.titles]}</label>)}
+    </details>
+  );
+}
+
 export function Motion(props: Props) {
   const {mechanics, query, window, drawn, whole, run, source, measured, ended} = props;
-  const all = query.get('plots') === 'all';
+  const chosen = query.get('plots') ?? '';
+  const all = chosen !== '';
   const contact = query.get('contact');
   const part = usePart(props);
   const loops = useLoops(run.job!.name, useMemo(() => crop(mechanics, contact), [mechanics, contact]), part, isFinal(run.state));
   const looped = useMemo(() => ({...part, loops}), [part, loops]);
   const empty = isFinal(run.state) && part.series.size > 0 ? 'Nothing recorded here.' : 'Waiting for samples …';
-  const plots = useMemo(() => presetsShown(mechanics, all, measured).map((preset) => (
-    <PresetPlot key={preset.id} {...{preset, mechanics, contact, all, ended, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, all, contact, ended, looped, drawn, measured, source, empty]);
+  const plots = useMemo(() => presetsShown(mechanics, chosen, measured).map((preset) => (
+    <PresetPlot key={preset.id} {...{preset, mechanics, contact, all, ended, drawn, measured, source, empty}} part={preset.id === 'hysteresis' ? looped : part} />)), [mechanics, chosen, contact, ended, looped, drawn, measured, source, empty]);
   return (
     <section aria-label="Motion">
       <div class="tools"><h2>Motion</h2>
         <Zoom query={query} window={window} whole={whole} live={!isFinal(run.state)} />
         {window && <span class="soft mono">{window[0]} … {window[1]} s</span>}
-        <label><input type="checkbox" checked={all} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
+        <label><input type="checkbox" checked={chosen === 'all'} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
+        <Choice mechanics={mechanics} shown={presetsShown(mechanics, chosen, measured).map(({id}) => id)} />
         <Cropped mechanics={mechanics} contact={contact} />
         <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
       </div>

@@ -40,7 +40,7 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const newest = run.job?.summary?.timeReachedS ?? run.progress?.timeS ?? 0;
   const window = windowOf(query, newest);
   const source = [titleOf(run.job!), `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
-  const all = query.get('plots') === 'all';
+  const all = query.has('plots');
   const ended = useMemo(() => (isFinal(run.state) ? run.cycles : []), [isFinal(run.state) && run.cycles.length]);
   const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all, ended), [mechanics, query.get('contact'), all, ended]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
