@@ -270,7 +270,7 @@ def _paper(arguments: argparse.Namespace) -> int:
                                    arguments.format or "svg")
     sys.stdout.write(summary(items))
     sys.stdout.flush()
-    if not drawn and any(item.figure for item in items):
+    if not drawn and any(item.figure or item.map for item in items):
         _tell(_NO_FIGURES)
     count = f"{len(items)} item{'s' * (len(items) != 1)}"
     _tell(f"{count}, {drawn} drawn, index.html in {arguments.directory}, in "

@@ -40,7 +40,7 @@ class Paper(ServerTest):
         for name in FIGURES:
             self.assertIn("</svg>", (made / f"{name}.svg").read_text("utf-8"), name)
             self.assertIn(f'<h2 id="{name}">', page)
-        self.assertEqual(page.count("<svg"), len(FIGURES))
+        self.assertEqual(page.count("<svg"), len(FIGURES) + 1)
         self.assertNotIn("http", page)  # Nothing comes from elsewhere.
         self.assertNotIn("<script", page)
         for name in "table2 table3 table4 fig4 fig15 exponent".split():
@@ -62,6 +62,17 @@ class Paper(ServerTest):
                      (made / "index.html").read_text("utf-8"),
                      json.loads((made / "table3.json").read_text("utf-8"))["note"]):
             self.assertIn(note, text)
+
+    def test_table_3_is_a_map_with_its_numbers_folded_below(self):
+        made, _ = self.make("table3")
+        page = (made / "index.html").read_text("utf-8")
+        rows = list(csv.DictReader((made / "table3.csv").read_text("utf-8").splitlines()))
+        told = [row["passes_published_process"] for row in rows]
+        drawn = re.findall(r"<text[^>]*>(\d+)</text>", page[page.index("<svg"):page.index("</svg>")])
+        for passes in set(told) - {"nan"}:
+            self.assertGreaterEqual(drawn.count(passes), told.count(passes), passes)
+        self.assertIn("<details><summary>50 numbers</summary>", page)
+        self.assertEqual((made / "table3.svg").read_text("utf-8").count("<svg"), 1)
 
     def test_table_2_and_4_are_those_of_the_paper(self):
         made, _ = self.make("table2", "table4")

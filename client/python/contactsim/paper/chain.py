@@ -6,10 +6,12 @@ import dataclasses
 import math
 from typing import Sequence
 
+import numpy as np
 from contact.v1 import job_pb2
 from contact.v1.scenario_pb2 import Contact, Scenario, Solver
 
 from ..figures import Curve, Figure, Mark, preset_figure
+from ..figures.sweeps import HeatMap
 from ..result import Result
 from .cases import (Solve, record_ledger_only, solve_as_paper, split_at_peak_force, triple_chain,
                     use_law, use_reference_velocity)
@@ -135,7 +137,19 @@ def _table_3(solve: Solve) -> Item:
     numbers = [Number(f"v {velocity:.1f} m/s, ε {restitution:.2f}", process=paper, converged=ours)
                for velocity, restitution, paper, ours in rows]
     return Item("table3", "Passes until the chain's restitutions are met: published process to 1 %, "
-                "ours to 1e-8", numbers, [Data("table3", columns, rows)], note=_TABLE_3)
+                "ours to 1e-8", numbers, [Data("table3", columns, rows)], note=_TABLE_3,
+                map=_map_of(rows))
+
+
+def _map_of(rows: Sequence[tuple[float, ...]]) -> HeatMap:
+    """The passes of the published process, as the table has them: a row a velocity, a column an ε."""
+    velocities, restitutions = (list(dict.fromkeys(row[i] for row in rows)) for i in (0, 1))
+    passes = np.array([row[2] for row in rows]).reshape(len(velocities), len(restitutions))
+    words = np.where(np.isnan(passes), "not converged", "").astype(object)
+    none = dict.fromkeys(("failed", "CUT", "no contact", "<= 0", "none"), 0)
+    return HeatMap("Passes by the published process", "restitution asked for [1]", "velocity of B1 [m/s]",
+                   "passes", [f"{e:.2f}" for e in restitutions], [f"{v:.1f}" for v in velocities],
+                   passes, words, False, none, [])
 
 
 def _table_3_scenarios(velocity: float, restitution: float) -> tuple[Scenario, Scenario]:

@@ -11,6 +11,7 @@ from typing import Any, Sequence
 from contact.v1 import job_pb2
 
 from ..figures.figure import Figure, rows_csv
+from ..figures.sweeps import HeatMap
 from ..result import Result
 
 NONE = math.nan  #: A number that the paper does not print, or that is not compared.
@@ -66,6 +67,7 @@ class Item:
     numbers: Sequence[Number] = ()
     data: Sequence[Data] = ()  #: What its curves or cells are drawn from.
     figure: Figure | None = None  #: None for tables.
+    map: HeatMap | None = None  #: Of a table whose numbers are a map.
     note: str = ""  #: What a reader should know of all its numbers, as a sentence.
 
     @property

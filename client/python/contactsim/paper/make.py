@@ -64,8 +64,9 @@ def write_paper(client: Client, ids: Iterable[str], folder: PathLike,
     items = make_items(chosen(ids), _by_jobs(client))
     server = client.server_info()
     for item in items:
-        if item.figure and not item.figure.sources:  # Of no single run.
-            item.figure.sources = [{"version": server.version, "revision": server.revision}]
+        for drawing in (item.figure, item.map):
+            if drawing and not drawing.sources:  # Of no single run.
+                drawing.sources = [{"version": server.version, "revision": server.revision}]
         item.write(path)
     figures = _draw(items, path, form)
     revision = f" ({server.revision})" if server.revision else ""
@@ -94,6 +95,7 @@ def _draw(items: Sequence[Item], folder: pathlib.Path, form: str) -> dict[str, s
     """Draws the figures beside their data; returns them as SVG, by item, for the page."""
     try:
         from ..figures.files import inline, rendered
+        from ..figures.maps import save_map
     except ModuleNotFoundError:
         return {}
     inlined = {}
@@ -103,5 +105,12 @@ def _draw(items: Sequence[Item], folder: pathlib.Path, form: str) -> dict[str, s
             inlined[item.id] = inline(svg, item.id)
             (folder / f"{item.id}.{form}").write_bytes(
                 svg if form == "svg" else rendered(item.figure, form))
+        if item.map:
+            drawn = folder / f"{item.id}.svg"
+            save_map(item.map, drawn)
+            inlined[item.id] = inline(drawn.read_bytes(), item.id)
+            if form != "svg":
+                drawn.unlink()
+                save_map(item.map, drawn.with_suffix(f".{form}"))
     return inlined
 

@@ -49,16 +49,17 @@ def _section(item: Item, figure: str) -> str:
     parts = [f'<h2 id="{item.id}">{item.id}: {escape(item.title)}</h2>\n',
              f"<figure>{figure}</figure>\n" if figure else "",
              f"<p>{escape(item.note)}</p>\n" if item.note else "",
-             _numbers(item) if item.numbers else ""]
+             _numbers(item, bool(item.map and figure)) if item.numbers else ""]
     links = [f'<a href="{data.name}.csv">{data.name}.csv</a>, {len(data.rows)} rows'
              + (f" ({escape(data.note)})" if data.note else "") for data in item.data]
     return "".join(parts) + (f"<p>Data: {'; '.join(links)}.</p>\n" if links else "")
 
 
-def _numbers(item: Item) -> str:
-    """Columns of which no number has anything are left out."""
+def _numbers(item: Item, drawn: bool) -> str:
+    """Columns of which no number has anything are left out. What a map shows is folded."""
     cells = [(n.what, *n.texts, n.why) for n in item.numbers]
     used = [place for place in range(len(_HEADERS)) if any(row[place] for row in cells)]
-    return table([_HEADERS[place] for place in used],
+    rows = table([_HEADERS[place] for place in used],
                  [Row([row[place] for place in used], not n.holds)
                   for row, n in zip(cells, item.numbers)])
+    return f"<details><summary>{len(cells)} numbers</summary>\n{rows}</details>\n" if drawn else rows
