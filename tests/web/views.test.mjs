@@ -339,7 +339,7 @@ test('plots, their order, powers of ten and Δμ/μ are chosen, and stand in the
   await page.getByLabel('Contact force', {exact: true}).check();
   await hold(async () => await shown() === 'energy,force');
   assert.equal(ofAddress('plots'), 'energy,force');
-  await page.getByRole('button', {name: 'Contact force, logarithmic'}).click();
+  await page.getByRole('button', {name: 'Contact force, log scale'}).click();
   await page.locator('[data-plot="force"] .note').getByText('of what is above 0').waitFor();
   await page.getByLabel('Δμ/μ').check();
   await page.locator('[data-plot="mu"] .note').getByText('from the last pass').waitFor();

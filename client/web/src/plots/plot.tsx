@@ -132,7 +132,7 @@ export function Plot({panel: given, window: span, onZoom, height = 240, source, 
     <figure class="plot" data-plot={panel.id} data-points={panel.raster?.time.length ?? lines(panel)[0]?.x.length ?? 0}>
       <figcaption>
         <h3>{panel.title}</h3>
-        {panel.overTime && !panel.raster && (log || !panel.logY) && <button type="button" class="log" aria-pressed={log} aria-label={`${panel.title}, logarithmic`}
+        {panel.overTime && !panel.raster && (log || !panel.logY) && <button type="button" class="log" aria-pressed={log} aria-label={`${panel.title}, log scale`}
           onClick={() => setQuery({logs: log ? logs.filter((id) => id !== given.id) : [...logs, given.id]})}>log</button>}
         <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
