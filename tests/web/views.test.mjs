@@ -350,6 +350,25 @@ test('plots, their order, powers of ten and Δμ/μ are chosen, and stand in the
   assert.match(await fileOf('Damping factor', 'CSV'), /^curve,pass,Δμ\/μ \[1\]/);
 });
 
+test('a formula of columns is plotted, stands in the address, and is taken away', async () => {
+  await open(`/runs/${chain}`);
+  await drawn();
+  const formula = page.getByLabel('Formula');
+  await formula.fill('B1.speed');
+  await formula.press('Enter');
+  await page.getByRole('alert').getByText('B1.speed: no column of this run, such as B1.velocity').waitFor();
+  await formula.fill('0.5 * (B1.velocity + B2.velocity + B3.velocity)');   // Times 1 kg: the momentum.
+  await formula.press('Enter');
+  const plot = page.locator('[data-plot^="0.5 * (B1"]');
+  await hold(async () => Number(await plot.getAttribute('data-points')) > 100);
+  await page.reload();
+  await hold(async () => Number(await plot.getAttribute('data-points')) > 100);
+  const rows = (await fileOf('0.5 * (B1.velocity + B2.velocity + B3.velocity)', 'CSV')).trim().split('\n').slice(1).map((row) => Number(row.split(',')[2]));
+  assert.ok(rows.every((momentum) => Math.abs(momentum - 0.1) < 1e-12), 'it is conserved');
+  await page.getByRole('button', {name: /^remove 0\.5/}).click();
+  await hold(async () => await plot.count() === 0 && ofAddress('derived') === null);
+});
+
 test('a point of the line of a sweep is chosen and becomes a run', async () => {
   const {name} = await server.call('CreateJob', {job: {sweep: {base: CHAIN, metrics: ['iterations', 'cycles[B1-B2].alpha'],
     axes: [{field: 'bodies[0].velocity_m_per_s', linear: {low: 0.1, high: 0.5, count: 5}}]}}});

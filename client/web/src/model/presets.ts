@@ -22,7 +22,7 @@ export interface Preset {
 
 export const FIRST = 6;   // Plots of the page; the others are shown when asked for.
 export const MOST_CONTACTS = 12;     // With a curve each.
-const MOST_ROWS = 400;   // Of a map: the server answers with at most some 500 columns that it thins.
+const MOST_ROWS = 380;   // Of a map: the server answers with at most 499 columns that it thins.
 const FEW_ROWS = 300;    // Of more contacts, none of which other plots have,
 const LEAST_ROWS = 140;  // and with all plots.
 const MOST_LABELS = 12;

@@ -5,6 +5,7 @@ import {useEffect, useMemo} from 'preact/hooks';
 import look from '../../../../python/contactsim/figures/words.json';
 
 import {bandsOf, type RunPart} from '../../model/curves';
+import {derivedPanel, type Formula} from '../../model/derived';
 import {MOST_CONTACTS, presetsFor, presetsShown, thinned, type Preset} from '../../model/presets';
 import type {Mechanics} from '../../model/mechanics';
 import {withMeasured, type Measured as MeasuredPoints} from '../../model/overlay';
@@ -16,6 +17,7 @@ import {Plot} from '../../plots/plot';
 import type {Window} from '../../plots/range';
 import {LeftOut} from '../../ui/left_out';
 import {setQuery} from '../../ui/route';
+import {Derived} from './derived';
 import {useLoops} from './use_loops';
 import {changed, covers, setWindow, windowOf} from './window';
 
@@ -32,6 +34,7 @@ interface Props {
   measured: MeasuredPoints | undefined;
   /** The cycles of a run that is over. */
   ended: Cycle[];
+  formulas: Formula[];
 }
 
 /** The part of a scenario that fits a plot; `ended` are the cycles of a run that is over. Maps and waterfalls are of all bodies, or of every n-th. */
@@ -85,6 +88,12 @@ function PresetPlot({preset, mechanics: whole, part, contact, all, ended, measur
   const panel = useMemo(() => preset.panel({mechanics, ...part}), [part, mechanics]);
   const shown = useMemo(() => withMeasured(panel, measured, drawn), [panel, measured, drawn?.[0], drawn?.[1]]);
   return <Plot panel={shown} window={drawn} onZoom={setWindow} source={rest.source} empty={rest.empty} {...(preset.many ? {height: MAP_PX} : {})} />;
+}
+
+function DerivedPlot({formula, mechanics: whole, part, contact, drawn, source, empty}: Omit<PresetProps, 'preset' | 'all' | 'ended' | 'measured'> & {formula: Formula}) {
+  const mechanics = useMemo(() => crop(whole, contact), [whole, contact]);
+  const panel = useMemo(() => derivedPanel(formula, {mechanics, ...part}), [formula, mechanics, part]);
+  return <Plot panel={panel} window={drawn} onZoom={setWindow} source={source} empty={empty} />;
 }
 
 /** Zoom by buttons and keys, for those who do not drag. */
@@ -143,7 +152,7 @@ function Choice({mechanics, shown}: {mechanics: Mechanics; shown: string[]}) {
 }
 
 export function Motion(props: Props) {
-  const {mechanics, query, window, drawn, whole, run, source, measured, ended} = props;
+  const {mechanics, query, window, drawn, whole, run, source, measured, ended, formulas} = props;
   const chosen = query.get('plots') ?? '';
   const all = chosen !== '';
   const contact = query.get('contact');
@@ -160,10 +169,11 @@ export function Motion(props: Props) {
         {window && <span class="soft mono">{window[0]} … {window[1]} s</span>}
         <label><input type="checkbox" checked={chosen === 'all'} onChange={(e) => setQuery({plots: e.currentTarget.checked ? 'all' : undefined})} /> more plots</label>
         <Choice mechanics={mechanics} shown={presetsShown(mechanics, chosen, measured).map(({id}) => id)} />
+        <Derived mechanics={mechanics} shown={formulas.map(({text}) => text)} />
         <Cropped mechanics={mechanics} contact={contact} />
         <span class="soft hint">drag in a plot to zoom, double-click to see all</span>
       </div>
-      <div class="plots">{plots}</div>
+      <div class="plots">{plots}{formulas.map((formula) => <DerivedPlot key={formula.text} {...{formula, mechanics, part, contact, drawn, source, empty}} />)}</div>
     </section>
   );
 }

@@ -3,6 +3,7 @@
 import {useEffect, useMemo, useState} from 'preact/hooks';
 
 import {isFinal} from '../../api/watch';
+import {formulasIn, type Formula} from '../../model/derived';
 import {mechanicsOf, muUnit, type Mechanics} from '../../model/mechanics';
 import type {Measured} from '../../model/overlay';
 import {presetsAsked} from '../../model/presets';
@@ -12,7 +13,7 @@ import type {Cycle} from '../../api/generated/contact/v1/job_pb';
 import type {Scenario as ScenarioMessage} from '../../api/generated/contact/v1/scenario_pb';
 import {setPlayhead} from '../../ui/playhead';
 import {LinkNote} from '../../ui/link_note';
-import {useOthers, type Route} from '../../ui/route';
+import {useOthers, useParameter, type Route} from '../../ui/route';
 import {Sweep} from '../sweep/sweep';
 import {Details} from './details';
 import {Header} from './header';
@@ -26,10 +27,10 @@ import {useSeries} from './use_series';
 import {windowOf} from './window';
 
 /** The columns of all plots and the strip, each once. */
-function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean, ended: Cycle[]): string[] {
+function channelsOf(mechanics: Mechanics, contact: string | null, all: boolean, ended: Cycle[], formulas: Formula[]): string[] {
   if (mechanics.scenario.output?.ledgerOnly) return [];
   const ofPlots = presetsAsked(mechanics, all).flatMap((preset) => preset.channels(partFor(preset, mechanics, contact, all, ended)));
-  return [...new Set([...ofPlots, ...stripChannels(mechanics)])];
+  return [...new Set([...ofPlots, ...stripChannels(mechanics), ...formulas.flatMap(({channels}) => channels)])].filter((name) => name !== 'time');
 }
 
 function Recording({id, run, query}: {id: string; run: RunState; query: URLSearchParams}) {
@@ -42,7 +43,9 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
   const source = [titleOf(run.job!), `jobs/${id}`, run.job!.serverVersion && `contactd ${run.job!.serverVersion}`].filter(Boolean).join(' · ');
   const all = query.has('plots');
   const ended = useMemo(() => (isFinal(run.state) ? run.cycles : []), [isFinal(run.state) && run.cycles.length]);
-  const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all, ended), [mechanics, query.get('contact'), all, ended]);
+  const texts = useParameter('derived');
+  const formulas = useMemo(() => formulasIn(texts, mechanics), [texts, mechanics]);
+  const channels = useMemo(() => channelsOf(mechanics, query.get('contact'), all, ended, formulas), [mechanics, query.get('contact'), all, ended, formulas]);
   const {series, window: drawn} = useSeries(run.job!.name, channels, window, isFinal(run.state) ? -1 : run.progress?.timeS ?? 0);
   const recorded = !scenario.output?.ledgerOnly;
   const choice = useOthers(query, 'from', 'to');   // A zoom leaves all but the plots over time as they are.
@@ -57,7 +60,7 @@ function Recording({id, run, query}: {id: string; run: RunState; query: URLSearc
       {recorded && strip}
       {iterations}
       {measurements}
-      {recorded ? <Motion run={run} ended={ended} mechanics={mechanics} measured={measured} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
+      {recorded ? <Motion run={run} ended={ended} formulas={formulas} mechanics={mechanics} measured={measured} series={series} query={choice} window={window} drawn={drawn} whole={[0, newest || scenario.endTimeS]} source={source} />
         : <p class="nothing">This run records no trajectory, only its ledger.</p>}
       {ledger}
     </>
