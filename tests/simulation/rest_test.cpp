@@ -28,7 +28,8 @@ Scenario Shaker() {
   Scenario s;
   s.bodies = {{.name = "table", .mass = 1e4, .radius = 0.01, .velocity = 0.1329430359},
               {.name = "ball", .mass = 0.24763, .radius = 0.02, .position = 0.030050642}};
-  s.contacts = {{.left = 0, .right = 1, .stiffness = 4970850, .restitution = 0.7372}};
+  s.contacts = {
+      {.name = "table-ball", .left = 0, .right = 1, .stiffness = 4970850, .restitution = 0.7372}};
   s.loads = {{.body = 0, .amplitude = -106875.44, .angular_frequency = 80.391905},
              {.body = 1, .constant = -9.80665 * 0.24763}};
   return s;
@@ -184,7 +185,9 @@ TEST(TheEnd, MarksAGroupWhoseNextCycleItCuts) {
   ASSERT_EQ(cut.groups.size(), 12U);
   for (std::size_t i = 0; i < cut.groups.size(); ++i) {
     EXPECT_EQ(cut.groups[i].beside_cut, i >= 9) << i + 1;
-    if (i < 10) EXPECT_NEAR(cut.groups[i].mu / whole.groups[i].mu, 1, 1e-6) << i + 1;
+  }
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(cut.groups[i].mu / whole.groups[i].mu, 1, 1e-6) << i + 1;
   }
   EXPECT_NEAR(cut.groups[10].mu, 4.3251e7, 1e4);
   EXPECT_NEAR(whole.groups[10].mu, 4.4372e8, 1e5);
