@@ -50,6 +50,11 @@ export function Remarks({job, onLabels}: {job: Job; onLabels: (labels: Labels) =
     if (draft) sessionStorage.setItem(draftKey(name), JSON.stringify(draft));
     else sessionStorage.removeItem(draftKey(name));
   }, [name, draft]);
+  const type = (part: Partial<Draft>) => {
+    const next = {...draft!, ...part};
+    sessionStorage.setItem(draftKey(name), JSON.stringify(next));   // At once: the page may be left before effects run.
+    setDraft(next);
+  };
   const fail = (why: unknown) => setError(explain(why));
   const begin = () => {
     setError('');
@@ -84,9 +89,9 @@ export function Remarks({job, onLabels}: {job: Job; onLabels: (labels: Labels) =
   }
   return (
     <form class="remarks" aria-label="Labels and note" onSubmit={store}>
-      <label>Title <input value={draft.title} placeholder={job.title} maxLength={MOST_LETTERS} spellcheck={false} onInput={(e) => setDraft({...draft, title: e.currentTarget.value.replaceAll(' ', '_')})} /></label>
-      <label>Labels <input value={draft.labels} placeholder="key=value, …" spellcheck={false} onInput={(e) => setDraft({...draft, labels: e.currentTarget.value})} /></label>
-      <label>Note <textarea value={draft.note} rows={Math.min(Math.max(draft.note.split('\n').length + 1, 3), 12)} maxLength={MOST_NOTE} onInput={(e) => setDraft({...draft, note: e.currentTarget.value})} /></label>
+      <label>Title <input value={draft.title} placeholder={job.title} maxLength={MOST_LETTERS} spellcheck={false} onInput={(e) => type({title: e.currentTarget.value.replaceAll(' ', '_')})} /></label>
+      <label>Labels <input value={draft.labels} placeholder="key=value, …" spellcheck={false} onInput={(e) => type({labels: e.currentTarget.value})} /></label>
+      <label>Note <textarea value={draft.note} rows={Math.min(Math.max(draft.note.split('\n').length + 1, 3), 12)} maxLength={MOST_NOTE} onInput={(e) => type({note: e.currentTarget.value})} /></label>
       <span class="group"><button type="submit" class="primary">Store</button>
         <button type="button" onClick={() => { setDraft(undefined); setError(''); }}>Drop changes</button></span>
       {error && <p class="bad" role="alert">{error}</p>}
