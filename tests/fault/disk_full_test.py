@@ -83,7 +83,7 @@ class StoreLimitTest(FaultTest):
         self.assertEqual(get(self.server, self.history, names[0]).state, Job.SUCCEEDED)
         self.delete_ended()
         recovered = wait_for(lambda: all_jobs(self.server, states=[Job.SUCCEEDED]))
-        # What found no space tries again each second.
+        # A job that found no space for its end tries again each second.
         wait_for(self.all_have_ended, limit=len(names))
         submit(self.server, self.history, scenario, "after")
         self.figures |= dict(jobs=len(names))

@@ -18,7 +18,8 @@ constexpr double kRecorded = 2;
 // round-off leave in weak cycles. Of the kinetic energy where a cycle begins at rest, relative to
 // W_c. A work of this part of the energy of all is nothing: its row proves nothing.
 constexpr double kIdentity = 10, kLeastIdentity = 1e-7, kAtRest = 1e-8, kNothing = 1e-10;
-// Two μ so near, relative, are one root.
+// Two μ so near, relative, are one root: a root that a scan leaves is more than a tenth larger than
+// the one that it takes, and one that comes back differs by about ξ.
 constexpr double kSameRoot = 1e-6;
 
 double Ratio(double work_compression, double work_restitution) {

@@ -52,7 +52,7 @@ export function Remarks({job, onLabels}: {job: Job; onLabels: (labels: Labels) =
   }, [name, draft]);
   const type = (part: Partial<Draft>) => {
     const next = {...draft!, ...part};
-    sessionStorage.setItem(draftKey(name), JSON.stringify(next));   // At once: the page may be left before effects run.
+    sessionStorage.setItem(draftKey(name), JSON.stringify(next));   // At once: the page may be left before the effect above runs.
     setDraft(next);
   };
   const fail = (why: unknown) => setError(explain(why));
