@@ -9,7 +9,7 @@ import type {Series} from '../src/api/series';
 import {iterationPanels} from '../src/model/iterations';
 import {alongLoop, hysteresis, polygons} from '../src/model/hysteresis';
 import {mechanicsOf} from '../src/model/mechanics';
-import {logarithmic, type Panel} from '../src/model/panel';
+import {logarithmic, without, type Panel} from '../src/model/panel';
 import {pixelsOf} from '../src/model/raster';
 import {unitOfScale} from '../src/plots/axes';
 import {yRange} from '../src/plots/range';
@@ -34,6 +34,13 @@ describe('powers of ten upwards', () => {
   it('are of what is above 0', () => {
     const {logY, curves, note} = logarithmic(panel);
     expect([logY, curves[0]!.y, note, yRange(logarithmic(panel), [0, 3])]).toEqual([true, [null, null, 2, 5], 'n; of what is above 0', [1, 10]]);
+  });
+
+  it('is saved without what is hidden, its marks and its ranges', () => {
+    const curves = ['A', 'A starts', 'A, 2 to 3', 'B', 'B ends'].map((label) => ({label, colour: 0, x: [0], y: [1]}));
+    const ranges = ['A', 'B'].map((label) => ({label, colour: 0, start: 0, end: 1, low: 0, high: 1}));
+    const saved = without({id: 'p', title: '', xLabel: '', yLabel: '', overTime: true, curves, ranges}, new Set(['A']));
+    expect([saved.curves.map(({label}) => label), saved.ranges!.map(({label}) => label)]).toEqual([['B', 'B ends'], ['B']]);
   });
 });
 

@@ -88,6 +88,16 @@ export function logarithmic(panel: Panel): Panel {
   return {...panel, logY: true, curves: panel.curves.map((curve) => ({...curve, y: above(curve)})), note: [panel.note, 'of what is above 0'].filter(Boolean).join('; ')};
 }
 
+/** Whether a curve is hidden, or that whose marks or loops it is. */
+export function isHidden({label}: Curve, hidden: Set<string>): boolean {
+  return hidden.has(label) || hidden.has(label.replace(/ (starts|ends)$/, '').replace(/,.*| #.*$/, ''));
+}
+
+/** The panel of what is not hidden. */
+export function without(panel: Panel, hidden: Set<string>): Panel {
+  return {...panel, curves: panel.curves.filter((curve) => !isHidden(curve, hidden)), ranges: panel.ranges?.filter(({label}) => !hidden.has(label))};
+}
+
 /** Bands in order, those that touch or overlap as one. */
 export function joined(bands: Band[]): Band[] {
   const result: Band[] = [];

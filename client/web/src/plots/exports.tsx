@@ -3,12 +3,14 @@
 import {useEffect, useRef} from 'preact/hooks';
 import type uPlot from 'uplot';
 
-import {panelCsv, type Panel} from '../model/panel';
+import {panelCsv, without, type Panel} from '../model/panel';
 import {save} from '../ui/save';
 import {svgOf, type Svg} from './svg';
 
 interface Props {
   panel: Panel;
+  /** Names of curves that its SVG and PNG leave out. */
+  hidden: Set<string>;
   plot: {current: uPlot | undefined};
   source: string;
   /** Draws what waits to be drawn. */
@@ -51,10 +53,10 @@ export function ExportButtons({title, name, svg, csv}: {title: string; name: str
   );
 }
 
-export function Exports({panel, plot, source, flush}: Props) {
+export function Exports({panel, hidden, plot, source, flush}: Props) {
   const svg = () => {
     flush();
-    return svgOf(panel, plot.current!, source);
+    return svgOf(without(panel, hidden), plot.current!, source);
   };
   return <ExportButtons title={panel.title} name={`${source}-${panel.id}`} svg={svg} csv={() => panelCsv(panel)} />;
 }

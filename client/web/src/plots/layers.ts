@@ -4,7 +4,7 @@
 import type uPlot from 'uplot';
 
 import {rarePoints, spreadOf} from '../model/coarse';
-import type {Curve, Panel} from '../model/panel';
+import {isHidden, type Curve, type Panel} from '../model/panel';
 import {pixelsOf, waterfallOf, type Raster} from '../model/raster';
 import {colourOf, dashOf, type Theme} from '../ui/theme';
 import {FONT, type Ink} from './axes';
@@ -244,8 +244,7 @@ export function drawOver(sheet: Sheet, hidden: Set<string>, named: boolean): voi
     }
     ctx.setLineDash([]);
     for (const curve of panel.curves) {
-      const owner = curve.label.replace(/ (starts|ends)$/, '').replace(/,.*| #.*$/, '');
-      if (hidden.has(owner) || hidden.has(curve.label)) continue;
+      if (isHidden(curve, hidden)) continue;
       if (curve.mark === 'start' || curve.mark === 'end') drawMarks(sheet, curve);
       else if (curve.mark === 'points') drawDots(sheet, curve);
       else if (curve.mark === 'rare') drawRare(sheet, curve.colour, Array.from(curve.x, (x, i) => [x, curve.y[i]!]));

@@ -134,7 +134,7 @@ export function Plot({panel: given, window: span, onZoom, height = 240, source, 
         <h3>{panel.title}</h3>
         {panel.overTime && !panel.raster && (log || !panel.logY) && <button type="button" class="log" aria-pressed={log} aria-label={`${panel.title}, log scale`}
           onClick={() => setQuery({logs: log ? logs.filter((id) => id !== given.id) : [...logs, given.id]})}>log</button>}
-        <Exports panel={panel} plot={plot} source={source} flush={seen.flush} />
+        <Exports panel={panel} hidden={hidden} plot={plot} source={source} flush={seen.flush} />
       </figcaption>
       <div ref={box} class={choosing ? 'canvas keys' : 'canvas'} {...(choosing ? choosable(choosing, plot) : {role: 'img', 'aria-label': namesOf(panel)})} />
       {!points && <p class="nothing">{panel.nothing ?? empty ?? 'Nothing to show yet.'}</p>}
