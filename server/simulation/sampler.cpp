@@ -2,37 +2,53 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 namespace contact {
+namespace {
+
+std::vector<int> Count(std::size_t size) {
+  std::vector<int> numbers(size);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+}  // namespace
 
 Sampler::Sampler(const Scenario& scenario, Motion& motion, Observer& observer, std::stop_token stop)
     : scenario_(scenario),
       motion_(motion),
       observer_(observer),
       stop_(std::move(stop)),
-      log_(scenario, stop_, [this](const Samples& samples) { HandOut(samples); }) {}
+      log_(scenario, stop_, [this](const Samples& samples) { HandOut(samples); }),
+      bodies_(Count(scenario.bodies.size())),
+      contacts_(Count(scenario.contacts.size())),
+      turn_finder_(scenario, motion, bodies_, contacts_) {}
 
 void Sampler::RecordStart(const State& state) {
   if (scenario_.sample_interval == 0) return;
   // Its first step tells the force of what is pressed, with the μ that is then found.
   if (std::ranges::any_of(state.contacts, StartsPressed)) return;
   motion_.Begin(state, true);
-  log_.TakeUntil(
-      0, {}, 0, [&](double, std::vector<double>* row) { Append(0, motion_.integrator().y0, row); });
+  log_.TakeUntil(0, {}, {}, 0, [&](double, std::vector<double>* row) {
+    Append(0, motion_.integrator().y0, row);
+  });
 }
 
 void Sampler::OnStep(const StepTime& step) {
   if (scenario_.sample_interval == 0) return;
   planned_.clear();
   if (!log_.full()) FindCycleSamples(scenario_, motion_, step, &planned_);
-  bool prepared = false;
-  log_.TakeUntil(step.At(1), planned_, motion_.steps(), [&](double time, std::vector<double>* row) {
+  turn_finder_.Find(step, motion_.equations().base(), &turns_);
+  bool prepared = !turns_.empty();
+  const auto take = [&](double time, std::vector<double>* row) {
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;
     motion_.Interpolate(std::clamp(step.Theta(time), 0.0, 1.0), &y_);
     Append(std::min(time, scenario_.end_time), y_, row);
-  });
+  };
+  log_.TakeUntil(step.At(1), planned_, turns_, motion_.steps(), take);
 }
 
 void Sampler::Append(double time, const Eigen::ArrayXd& y, std::vector<double>* row) {

@@ -7,6 +7,7 @@
 
 #include "simulation/course/course.h"
 #include "simulation/course/sample_log.h"
+#include "simulation/course/turns.h"
 #include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/motion.h"
@@ -68,8 +69,12 @@ class Sampler final : public Recording {
   std::optional<Sampling> before_;
   // Full chunks that are kept.
   std::vector<Samples> held_;
-  // Samples of cycles in the step.
+  // Those of all bodies and contacts.
+  const std::vector<int> bodies_, contacts_;
+  TurnFinder turn_finder_;
+  // Samples of cycles in the step, and turns.
   std::vector<CycleSample> planned_;
+  std::vector<Turn> turns_;
   // Scratch: the state of a sample, and its slopes.
   Eigen::ArrayXd y_, slope_;
 };

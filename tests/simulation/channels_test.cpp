@@ -56,6 +56,7 @@ double WorstBalance(const Record& r) {
 void Sampled(Scenario* s, int samples = 200) {
   s->sample_interval = s->end_time / samples;
   s->samples_per_contact = 10;
+  s->turning_channels = static_cast<int>(s->contacts.size() + 2 * s->bodies.size());
 }
 
 class Balance : public ::testing::TestWithParam<int> {};

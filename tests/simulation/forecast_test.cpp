@@ -185,6 +185,19 @@ TEST(RunEstimate, SamplesInCyclesAreThoseOfTheRunWithinAFactorOfTwo) {
   }
 }
 
+// A ball that a spring and a force drive against a wall, a hundred contacts in ten intervals.
+TEST(RunEstimate, ExtremesOfContactsWithoutSamplesAreThoseOfTheRunWithinAFactorOfTwo) {
+  Scenario s = testing::SpringWall();
+  s.end_time = 0.3;
+  s.sample_interval = s.end_time / 10;
+  s.samples_per_contact = 20;
+  s.most_contact_samples = 10;
+  s.turning_channels = 3;
+  const double ratio = EstimateRunOf(s).samples / testing::RunAndRecord(s).rows();
+  EXPECT_LT(ratio, 2);
+  EXPECT_GT(ratio, 0.5);
+}
+
 TEST(RunEstimate, StepsAreThoseOfTheRunWithinAFactorOfThree) {
   Scenario law = testing::Collision(0.3, 2, 5e7, 1.5, 0.7);
   law.contacts[0].damping = DampingLaw::kFlores;

@@ -149,6 +149,13 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
     all[i].second.sample_interval = all[i].second.end_time / 700;
     all[i].second.samples_per_contact = 10;
   }
+  for (const std::size_t i : {1UL, 2UL, all.size() - 3, all.size() - 2}) {
+    all.emplace_back(all[i].first + ", with extremes", all[i].second);
+    Scenario& s = all.back().second;
+    s.sample_interval = s.end_time / 7;
+    s.samples_per_contact = 0;
+    s.turning_channels = static_cast<int>(s.contacts.size() + 2 * s.bodies.size());
+  }
   return all;
 }
 

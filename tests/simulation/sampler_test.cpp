@@ -228,7 +228,7 @@ TEST(Sampler, TheLongerARunIsTheMoreRarelyChunksAreHandedOutBySteps) {
   constexpr std::int64_t kStepsPerRow = 100'000;  // For a row; 58,000 are due at first.
   for (std::int64_t row = 0; row <= 100'000; ++row) {
     log.TakeUntil(
-        1e-5 * static_cast<double>(row), {}, kStepsPerRow * row,
+        1e-5 * static_cast<double>(row), {}, {}, kStepsPerRow * row,
         [](double, std::vector<double>* values) { values->resize(9 * (values->size() / 9 + 1)); });
   }
   // 64 (1 + ln(t/t₀)) until 128 rows are a 64th of the run, then full ones: 410 and 720.

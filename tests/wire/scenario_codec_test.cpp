@@ -344,6 +344,27 @@ TEST(DecodeScenario, ByDefaultSamplesInContactsAreAsManyAsThoseOfTheInterval) {
             static_cast<std::int64_t>(1e6 / columns));
 }
 
+// Rows at extremes: two of each channel in each of 1001 intervals, of 16 columns and more.
+TEST(DecodeScenario, ExtremesAreThoseOfAllOrOfForcesOrOfNothingByHowManyNumbersTheyMayMake) {
+  v1::Scenario message = TwoBalls();
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 5);
+  EXPECT_EQ(DecodeScenario(message, {.max_samples = 20'000}).scenario.turning_channels, 1);
+  EXPECT_EQ(DecodeScenario(message, {.max_samples = 1011}).scenario.turning_channels, 0);
+  for (int i = 2; i < 20; ++i) *message.add_bodies() = message.bodies(1);
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 1);
+  for (int i = 20; i < 200; ++i) *message.add_bodies() = message.bodies(1);
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 0);
+}
+
+TEST(DecodeScenario, ExtremesAreNoneWhereNobodyWantsSamplesInContacts) {
+  v1::Scenario message = TwoBalls();
+  message.mutable_output()->set_samples_per_contact(0);
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 0);
+  message.mutable_output()->clear_samples_per_contact();
+  message.mutable_output()->set_ledger_only(true);
+  EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 0);
+}
+
 TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalLeaveOfTheLimit) {
   v1::Scenario message = TwoBalls();
   message.set_end_time_s(1);

@@ -17,7 +17,7 @@ constexpr double kLarge = 1 << 20;
 
 // How many samples there are besides those of sample_interval is not known before they are read.
 bool IsLarge(const SeriesSelection& selection, const Scenario& scenario) {
-  double most = scenario.end_time / scenario.sample_interval;
+  double most = scenario.end_time / scenario.sample_interval * (1 + 2 * scenario.turning_channels);
   if (scenario.samples_per_contact > 0) most += static_cast<double>(scenario.most_contact_samples);
   const double rows = std::min(static_cast<double>(selection.max_rows), most);
   return rows * static_cast<double>(selection.columns.size() * sizeof(double)) >= kLarge;

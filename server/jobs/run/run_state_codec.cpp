@@ -152,8 +152,23 @@ void serialize(Archive& archive, Samples& s) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Turn& t) {
+  archive(t.time, t.channel, t.value);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Extremes::Row& r) {
+  archive(r.turn, r.values);
+}
+
+template <class Archive>
+void serialize(Archive& archive, Extremes& e) {
+  archive(e.low, e.high, e.turns, e.scale);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Sampling& s) {
-  archive(s.pending, s.regular, s.last, s.due);
+  archive(s.pending, s.regular, s.last, s.due, s.extremes);
 }
 
 template <class Archive>
@@ -206,7 +221,7 @@ void serialize(Archive& archive, Trace::Ends& e) {
 
 template <class Archive>
 void serialize(Archive& archive, Trace::Pressed& p) {
-  archive(p.contact, p.mu);
+  archive(p.contact, p.mu, p.yield);
 }
 
 template <class Archive>
@@ -216,7 +231,7 @@ void serialize(Archive& archive, CycleSample& s) {
 
 template <class Archive>
 void serialize(Archive& archive, Trace& t) {
-  archive(t.bodies, t.steps, t.ends, t.dissipated, t.pressed, t.presses, t.samples);
+  archive(t.bodies, t.steps, t.ends, t.dissipated, t.pressed, t.presses, t.samples, t.turns);
 }
 
 template <class Archive>

@@ -29,8 +29,9 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
 void Frames::RecordUntil(double instant, const Pieces& pieces, std::int64_t steps) {
   if (scenario_.sample_interval == 0) return;
   FindSamples(until_, instant, pieces);
+  FindTurns(until_, instant, pieces);
   until_ = instant;
-  log_.TakeUntil(instant, wanted_, steps, [&](double time, std::vector<double>* row) {
+  log_.TakeUntil(instant, wanted_, turns_, steps, [&](double time, std::vector<double>* row) {
     Append(std::min(time, scenario_.end_time), pieces, row);
   });
 }
@@ -44,6 +45,19 @@ void Frames::FindSamples(double from, double until, const Pieces& pieces) {
     for (; sample != samples.end() && sample->time <= until; ++sample) wanted_.push_back(*sample);
   }
   std::ranges::stable_sort(wanted_, {}, &CycleSample::time);
+}
+
+// What begins at `until` may not be solved yet: its turns there come the next time.
+void Frames::FindTurns(double from, double until, const Pieces& pieces) {
+  turns_.clear();
+  for (const auto& [number, piece] : pieces) {
+    if (piece->begins() >= until) continue;
+    const auto& turns = piece->trace.turns;
+    auto turn = piece->begins() >= from ? turns.begin()
+                                        : std::ranges::upper_bound(turns, from, {}, &Turn::time);
+    for (; turn != turns.end() && turn->time <= until; ++turn) turns_.push_back(*turn);
+  }
+  std::ranges::stable_sort(turns_, {}, &Turn::time);
 }
 
 double Frames::Gap(int contact) const {

@@ -45,6 +45,7 @@ class Frames {
 
  private:
   void FindSamples(double from, double until, const Pieces& pieces);
+  void FindTurns(double from, double until, const Pieces& pieces);
   void Append(double instant, const Pieces& pieces, std::vector<double>* row);
   void FindForces(double instant, const Pieces& pieces);
   /// What the contacts of a piece have dissipated from its begin to the instant of the sample [J].
@@ -65,6 +66,7 @@ class Frames {
   double until_ = 0;  // All up to here are taken [s].
   double dissipated_ = 0;
   std::vector<CycleSample> wanted_;
+  std::vector<Turn> turns_;
   // Of a sample: each body's place, ẋ and ẍ, and F and δ_y of each contact.
   std::vector<Place> places_;
   // Of the bodies of a piece.

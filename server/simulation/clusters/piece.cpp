@@ -104,7 +104,8 @@ struct PieceSolver::Work {
         now(of.Begin(start, part, run)),
         reporter(piece->start.contacts, start.time, of.observer_, &piece->report),
         course(part, reporter, of.stop_),
-        writer(of.scenario_, course.motion(), piece->start.contacts, &piece->trace) {
+        writer(of.scenario_, course.motion(), piece->start.bodies, piece->start.contacts,
+               &piece->trace) {
     piece->start = std::move(start);
     piece->end.places = piece->start.places;
     reporter.SetEpisode(piece->start.outlook.episode);

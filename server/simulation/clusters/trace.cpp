@@ -33,9 +33,13 @@ std::span<const Trace::Pressed> Trace::PressedIn(std::size_t step) const {
   return std::span(pressed).subspan(from, presses[step] - from);
 }
 
-TraceWriter::TraceWriter(const Scenario& whole, Motion& motion, const std::vector<int>& contacts,
-                         Trace* trace)
-    : motion_(motion), contacts_(contacts), whole_(whole), trace_(*trace) {}
+TraceWriter::TraceWriter(const Scenario& whole, Motion& motion, const std::vector<int>& bodies,
+                         const std::vector<int>& contacts, Trace* trace)
+    : motion_(motion),
+      contacts_(contacts),
+      whole_(whole),
+      trace_(*trace),
+      turn_finder_(whole, motion, bodies, contacts) {}
 
 void TraceWriter::Begin(const std::vector<Place>& places) {
   base_.clear();
@@ -49,11 +53,14 @@ void TraceWriter::FindParts(const StepTime& step) {
   if (interval == 0) return;
   FindCycleSamples(whole_, motion_, step, &found_);
   trace_.samples.insert(trace_.samples.end(), found_.begin(), found_.end());
+  turn_finder_.Find(step, base_, &turns_);
+  trace_.turns.insert(trace_.turns.end(), turns_.begin(), turns_.end());
   const auto add = [&](double instant) {
     const double theta = step.Theta(instant);
     if (instant > step.start && theta > 0 && theta < 1) parts_.push_back(theta);
   };
   for (const CycleSample& sample : found_) add(sample.time);
+  for (const Turn& turn : turns_) add(turn.time);
   for (double i = std::ceil(step.start / interval); i * interval < step.At(1); ++i) {
     add(i * interval);
   }
@@ -114,6 +121,7 @@ void TraceWriter::Write(const StepTime& step, const Eigen::ArrayXd& y0,
 void TraceWriter::Hold() {
   held_ = trace_.steps.size();
   held_samples_ = trace_.samples.size();
+  held_turns_ = trace_.turns.size();
 }
 
 void TraceWriter::TakeBack() {
@@ -121,6 +129,7 @@ void TraceWriter::TakeBack() {
   trace_.ends.resize(held_ * trace_.bodies);
   if (whole_.sample_interval == 0) return;
   trace_.samples.resize(held_samples_);
+  trace_.turns.resize(held_turns_);
   trace_.dissipated.resize(held_);
   trace_.presses.resize(held_);
   trace_.pressed.resize(held_ == 0 ? 0 : trace_.presses.back());

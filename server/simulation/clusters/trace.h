@@ -7,6 +7,7 @@
 #include "simulation/clusters/flight.h"
 #include "simulation/course/course.h"
 #include "simulation/course/cycle_samples.h"
+#include "simulation/course/turns.h"
 
 namespace contact {
 
@@ -31,6 +32,7 @@ struct Trace {
   std::vector<Pressed> pressed;      ///< In each step, step after step,
   std::vector<std::size_t> presses;  ///< up to here.
   std::vector<CycleSample> samples;  ///< Those that its cycles want, in the order of time.
+  std::vector<Turn> turns;           ///< Of the channels of the whole, in the order of time.
 
   /// The step in which an instant lies [s], the earlier one at an end.
   std::size_t StepAt(double instant) const;
@@ -45,9 +47,10 @@ struct Trace {
 /// one to the next, so that they are as exact as the dense output of its method.
 class TraceWriter final : public Recording {
  public:
-  /// `contacts`: the indices in the whole scenario of those of `motion`. All outlive the writer.
-  TraceWriter(const Scenario& whole, Motion& motion, const std::vector<int>& contacts,
-              Trace* trace);
+  /// `bodies` and `contacts`: the indices in the whole scenario of those of `motion`. All outlive
+  /// the writer.
+  TraceWriter(const Scenario& whole, Motion& motion, const std::vector<int>& bodies,
+              const std::vector<int>& contacts, Trace* trace);
 
   /// The next stretch begins with these displacements since t = 0 [m].
   void Begin(const std::vector<Place>& places);
@@ -58,7 +61,7 @@ class TraceWriter final : public Recording {
   void TakeBack() override;
 
  private:
-  /// Where samples lie within a step: θ, ascending.
+  /// Where samples and turns lie within a step: θ, ascending.
   void FindParts(const StepTime& step);
   void Write(const StepTime& step, const Eigen::ArrayXd& y0, const Eigen::ArrayXd& slope0,
              const Eigen::ArrayXd& y1, const Eigen::ArrayXd& slope1);
@@ -67,13 +70,15 @@ class TraceWriter final : public Recording {
   const std::vector<int>& contacts_;
   const Scenario& whole_;
   Trace& trace_;
+  TurnFinder turn_finder_;
   std::vector<double> base_;  // u at the begin of the stretch [m].
   double lost_before_ = 0;    // Of cycles that run where the trace begins, until then [J].
   // Scratch.
   std::vector<CycleSample> found_;
+  std::vector<Turn> turns_;
   std::vector<double> parts_;
   Eigen::ArrayXd from_, from_slope_, to_, to_slope_;
-  std::size_t held_ = 0, held_samples_ = 0;
+  std::size_t held_ = 0, held_samples_ = 0, held_turns_ = 0;
 };
 
 }  // namespace contact

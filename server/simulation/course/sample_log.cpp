@@ -33,6 +33,7 @@ SampleLog::SampleLog(const Scenario& scenario, std::stop_token stop,
     : scenario_(scenario), stop_(std::move(stop)), hand_out_(std::move(hand_out)) {
   samples_.columns = SampleColumns(scenario);
   due_ = DueAfter(0, samples_.columns);
+  extremes_.resize(static_cast<std::size_t>(scenario.turning_channels));
 }
 
 double SampleLog::NextRegular(double instant) const {
@@ -42,14 +43,36 @@ double SampleLog::NextRegular(double instant) const {
   return is_late || time > scenario_.end_time * (1 + 1e-12) ? kNever : time;
 }
 
-void SampleLog::Begin(double time) {
+bool SampleLog::Begin(double time) {
+  if (samples_.rows() == 0 && stop_.stop_requested()) CutShort();
+  if (cut_short_) return false;
   samples_.values.push_back(time);
   last_ = time;
   ++next_;
+  return true;
 }
 
 void SampleLog::End() {
   if (samples_.rows() == RowsPerChunk(samples_.columns)) Flush();
+}
+
+void SampleLog::TakeExtremes() {
+  const bool misses = std::ranges::any_of(extremes_, [](const Extremes& e) { return e.turns > 1; });
+  std::vector<Extremes::Row> rows;
+  for (Extremes& channel : extremes_) {
+    const int turns = std::exchange(channel.turns, 0);
+    const double range = channel.high.turn.value - channel.low.turn.value;
+    const bool is_still = turns > 1 && range <= kStill * channel.scale;
+    if (!misses || turns == 0 || is_still) continue;
+    rows.push_back(channel.low);
+    rows.push_back(channel.high);
+  }
+  std::ranges::stable_sort(rows, {}, [](const Extremes::Row& row) { return row.turn.time; });
+  for (const Extremes::Row& row : rows) {
+    if (row.turn.time <= last_ || !Begin(row.turn.time)) continue;
+    samples_.values.insert(samples_.values.end(), row.values.begin(), row.values.end());
+    End();
+  }
 }
 
 void SampleLog::Flush() {
@@ -71,7 +94,8 @@ bool SampleLog::full() const {
 }
 
 Sampling SampleLog::Save() const {
-  Sampling now{.pending = samples_, .regular = regular_, .last = last_, .due = due_};
+  Sampling now{
+      .pending = samples_, .regular = regular_, .last = last_, .due = due_, .extremes = extremes_};
   now.pending.first = next_ - samples_.rows();
   return now;
 }
@@ -81,6 +105,7 @@ void SampleLog::Restore(Sampling from) {
   regular_ = from.regular;
   last_ = from.last;
   due_ = from.due;
+  extremes_ = std::move(from.extremes);
   samples_ = std::move(from.pending);
 }
 

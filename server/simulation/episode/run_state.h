@@ -12,12 +12,32 @@ namespace contact {
 
 struct ClusterState;
 
+/// An instant at which a channel of Scenario::turning_channels turns: no longer grows or falls.
+struct Turn {
+  double time = 0;   ///< [s].
+  int channel = 0;   ///< From 0.
+  double value = 0;  ///< [N], [m] or [m/s].
+};
+
+/// The least and the largest turn of a channel since the last sample.
+struct Extremes {
+  /// The whole sample at the turn, without its time.
+  struct Row {
+    Turn turn;
+    std::vector<double> values;
+  };
+  Row low, high;
+  int turns = 0;     ///< Instants at which it turned.
+  double scale = 0;  ///< Largest |value| of a turn since t = 0.
+};
+
 /// How far the trajectory is recorded.
 struct Sampling {
   Samples pending;           ///< Taken and not reported yet; `first` is theirs.
   std::int64_t regular = 0;  ///< Samples at multiples of the interval so far.
   double last = 0;           ///< Time of the last sample [s].
   std::int64_t due = 0;      ///< Steps of the run at which `pending` is handed out, full or not.
+  std::vector<Extremes> extremes;  ///< Since the last sample, of each turning channel.
 };
 
 /// When the rest that follows a group ends.

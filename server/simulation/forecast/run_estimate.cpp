@@ -154,8 +154,12 @@ double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
     if (!scenario.wants_all_contact_samples && !(spacing < scenario.sample_interval)) continue;
     in_cycles += c.count * scenario.samples_per_contact;
   }
-  return 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12)) +
-         std::min(std::round(in_cycles), static_cast<double>(scenario.most_contact_samples));
+  const double regular = 1 + std::floor(scenario.end_time / scenario.sample_interval * (1 + 1e-12));
+  const auto most = static_cast<double>(scenario.most_contact_samples);
+  if (in_cycles <= most) return regular + std::round(in_cycles);
+  // Of the cycles after these the extremes are taken.
+  const double unseen = 1 - most / in_cycles;
+  return regular + most + std::round(unseen * regular * 2 * scenario.turning_channels);
 }
 
 // Rows of a chunk.

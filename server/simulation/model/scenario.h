@@ -172,6 +172,10 @@ struct Scenario {
   /// False if nobody asked for them: a cycle in which the interval is as short has none of its own,
   /// and a run does not warn where they end.
   bool wants_all_contact_samples = true;
+  /// Samples are also taken where so many channels are least and largest between two others, if
+  /// some channel turns twice there: F of each contact, then x and v of each body. 0, the number of
+  /// contacts, or all.
+  int turning_channels = 0;
 };
 
 /// "Not known", for numbers.

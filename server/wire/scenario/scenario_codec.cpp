@@ -186,21 +186,36 @@ double DecodeSampleInterval(const v1::Scenario& message, const ScenarioLimits& l
   return output.ledger_only() ? 0 : interval;
 }
 
-// What is recorded of the trajectory, of bodies and contacts that are decoded. Samples in contacts
-// are as many as those at equal intervals leave of the limit; where nobody asked for them they
-// double the samples at most.
+// Numbers of samples that nobody asked for, 8 MB: a row has all columns, so that each contact of a
+// gas of 1,000 balls would have a million values of its own.
+constexpr double kMostByDefault = 1e6;
+
+// Channels of which extremes are recorded: as many as make at most kMostByDefault numbers, and half
+// of the `left` samples.
+int TurningChannels(const Scenario& scenario, double regular, double left) {
+  const auto fits = [&](std::size_t channels) {
+    const double rows = 2 * static_cast<double>(channels) * regular;
+    return rows <= left / 2 && rows * SampleColumns(scenario) <= kMostByDefault;
+  };
+  const std::size_t forces = scenario.contacts.size(), all = forces + 2 * scenario.bodies.size();
+  if (scenario.samples_per_contact == 0 || !fits(forces)) return 0;
+  return static_cast<int>(fits(all) ? all : forces);
+}
+
+// What is recorded of the trajectory, of bodies and contacts that are decoded. Extremes between
+// samples at equal intervals come first, then samples in contacts, as many as are left of the
+// limit; where nobody asked for them they double the samples at most.
 void DecodeOutput(const v1::Scenario& message, const ScenarioLimits& limits, const Rules& rules,
                   Scenario* scenario) {
   constexpr double kMost = 1e15;  // Exact as a number.
-  // Numbers of those that nobody asked for, 8 MB: a row has all columns, so that each contact of a
-  // gas of 1,000 balls would have a million values of its own.
-  constexpr double kMostByDefault = 1e6;
   scenario->sample_interval = DecodeSampleInterval(message, limits, rules);
   scenario->samples_per_contact =
       static_cast<int>(rules.Read(message.output(), v1::Output::kSamplesPerContactFieldNumber));
   scenario->wants_all_contact_samples = message.output().has_samples_per_contact();
   const double regular = 1 + std::floor(message.end_time_s() / scenario->sample_interval);
   double most = std::min(static_cast<double>(limits.max_samples) - regular, kMost);
+  scenario->turning_channels = TurningChannels(*scenario, regular, most);
+  most -= 2 * scenario->turning_channels * regular;
   if (!scenario->wants_all_contact_samples) {
     most = std::min({most, regular, std::floor(kMostByDefault / SampleColumns(*scenario))});
   }

@@ -1,6 +1,7 @@
 """contactctl plot: its flags, files and exit codes; tests/python tests what contactsim draws."""
 
 import csv
+import math
 import re
 import subprocess
 import unittest
@@ -110,6 +111,18 @@ class PlotTest(CliTest):
         self.assertGreater(len(loop), 80)
         lost = cycle.work_compression_j + cycle.work_restitution_j
         self.assertAlmostEqual(np.trapz(loop[:, 1], loop[:, 0]), lost, delta=2e-3 * lost)
+
+    def test_a_swing_seen_once_in_its_period_is_drawn_with_its_amplitude(self):
+        scenario = self.folder / "swing.yaml"  # 2000 rad/s; a sample is taken each π/1000 s.
+        scenario.write_text("bodies: [{name: ball, mass_kg: 0.5, position_m: 0.001}]\n"
+                            "supports: [{body: ball, stiffness_n_per_m: 2.0e6}]\n"
+                            f"end_time_s: {math.pi / 10}\noutput: {{sample_interval_s: {math.pi / 1000}}}\n")
+        name = self.submit(scenario)
+        rows = list(csv.reader(self.plot("position", "swing.csv", name=name).decode().splitlines()))
+        swing = np.array([(float(x), float(y)) for label, x, y in rows if label == "ball"])
+        for start in np.arange(100) * math.pi / 1000:
+            seen = swing[(swing[:, 0] >= start - 1e-9) & (swing[:, 0] <= start + math.pi / 1000 + 1e-9), 1]
+            np.testing.assert_allclose([seen.min(), seen.max()], [-1e-3, 1e-3], rtol=1e-6)
 
     def test_cycles_between_samples_are_told_with_what_shows_them(self):
         name = self.submit(SCENARIOS / "bouncing-ball.yaml", "--set", "output={}", "--set",
