@@ -37,7 +37,7 @@ describe('powers of ten upwards', () => {
   });
 
   it('is saved without what is hidden, its marks and its ranges', () => {
-    const curves = ['A', 'A starts', 'A, 2 to 3', 'B', 'B ends'].map((label) => ({label, colour: 0, x: [0], y: [1]}));
+    const curves = ['A', 'A starts', 'A, 2 to 3', 'B', 'B ends'].map((label) => ({label, colour: 0, mark: 'line' as const, x: [0], y: [1]}));
     const ranges = ['A', 'B'].map((label) => ({label, colour: 0, start: 0, end: 1, low: 0, high: 1}));
     const saved = without({id: 'p', title: '', xLabel: '', yLabel: '', overTime: true, curves, ranges}, new Set(['A']));
     expect([saved.curves.map(({label}) => label), saved.ranges!.map(({label}) => label)]).toEqual([['B', 'B ends'], ['B']]);
