@@ -365,7 +365,7 @@ TEST(DecodeScenario, ExtremesAreNoneWhereNobodyWantsSamplesInContacts) {
   EXPECT_EQ(DecodeScenario(message, {}).scenario.turning_channels, 0);
 }
 
-TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalLeaveOfTheLimit) {
+TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalAndExtremesLeaveOfTheLimit) {
   v1::Scenario message = TwoBalls();
   message.set_end_time_s(1);
   message.mutable_output()->set_sample_interval_s(0.25);
@@ -374,7 +374,8 @@ TEST(DecodeScenario, SamplesInContactsHaveWhatThoseOfTheIntervalLeaveOfTheLimit)
     return DecodeScenario(message, {.max_samples = limit}).scenario.most_contact_samples;
   };
   EXPECT_EQ(most(5), 0);
-  EXPECT_EQ(most(105), 100);
+  EXPECT_EQ(most(100), 95 - 2 * 5);  // 5 of the interval, and at most two of the force in each.
+  EXPECT_EQ(most(105), 100 - 2 * 5 * 5);  // Two of all five channels.
   EXPECT_GT(most(std::numeric_limits<std::int64_t>::max()), 1'000'000'000'000);
   message.set_end_time_s(std::nan(""));
   EXPECT_EQ(most(5), 0);

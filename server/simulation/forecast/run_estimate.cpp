@@ -158,8 +158,8 @@ double Rows(const Scenario& scenario, const std::vector<Cycles>& cycles) {
   const auto most = static_cast<double>(scenario.most_contact_samples);
   if (in_cycles <= most) return regular + std::round(in_cycles);
   // Of the cycles after these the extremes are taken.
-  const double unseen = 1 - most / in_cycles;
-  return regular + most + std::round(unseen * regular * 2 * scenario.turning_channels);
+  const double unseen = std::floor((in_cycles - most) / scenario.samples_per_contact);
+  return regular + most + std::min(unseen, regular) * 2 * scenario.turning_channels;
 }
 
 // Rows of a chunk.
