@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -38,7 +39,7 @@ class Tangents {
   /// Takes in one more μ; nothing depends on it yet.
   void Add();
   /// How many μ there are.
-  Eigen::Index count() const { return u_.rows(); }
+  Eigen::Index count() const { return y_.rows(); }
   /// Call when the equations' active contacts have changed, and after the first μ.
   void Prepare() { linked_.Count(); }
 
@@ -47,7 +48,7 @@ class Tangents {
   void Follow(const StepTime& step, const std::vector<DeformationPath>& paths, double from,
               double to);
   /// The work of a contact is counted from this instant on.
-  void Restart(int contact) { work_.col(contact).setZero(); }
+  void Restart(int contact) { y_.col(equations_.work(contact)).setZero(); }
   /// Changes the velocities where the force of a contact begins or ends with a jump, (S3), by
   /// `growth`, the force that begins, over δ̇ [N·s/m].
   void Jump(const Sides& sides, double growth);
@@ -56,7 +57,7 @@ class Tangents {
   /// A spring that has slipped sticks: its slack position has gone along so far.
   void Stick(std::size_t support, const Sides& sides);
   /// ∂W/∂μ of a contact, for each μ, (S2).
-  Eigen::ArrayXd Work(int contact) const { return work_.col(contact); }
+  Eigen::ArrayXd Work(int contact) const { return y_.col(equations_.work(contact)); }
 
  private:
   using Link = LinkedBodies::Link;
@@ -64,12 +65,6 @@ class Tangents {
   /// derivative by what the link remembers: a slack position or δ_y.
   struct Law {
     double force = 0, by_deformation = 0, by_rate = 0, damping = 0, rate = 0, by_memory = 0;
-  };
-  /// The two stages of a part: its length in time by the pace of each [s], and the laws of all
-  /// links.
-  struct Stages {
-    double pace[2] = {};
-    std::vector<Law> laws[2];
   };
 
   /// The stages of a part from θ = `from` to `to`.
@@ -84,32 +79,34 @@ class Tangents {
   void AddForces(Count count);
   /// Adds what slack positions of supports and δ_y of contacts do to them, and to works.
   void AddMemories();
-  /// The difference of the bodies' displacements is what this column remembers.
-  void Remember(Eigen::Index column, const Sides& sides);
+  /// The difference of the bodies' displacements is what this link remembers.
+  void Remember(Eigen::Index link, const Sides& sides);
   /// ∂u/∂μ and ∂v/∂μ of the linked bodies at the stages, by the accelerations.
   template <class Count>
   void Move(Count count);
   /// ∂W/∂μ at the end of a part.
   template <class Count>
   void AddWorks(Count count);
-  /// Copies what is moved from u, v and W to x, or back.
-  void Gather();
-  void Scatter();
+  /// ∂u/∂μ and ∂v/∂μ of a body.
+  auto U(Eigen::Index body) { return y_.col(body); }
+  auto V(Eigen::Index body) { return y_.col(equations_.bodies() + body); }
+  /// What a contact remembers, or, counted after these, a support.
+  auto Memory(Eigen::Index link) { return y_.col(equations_.work(equations_.contacts()) + link); }
 
   const Scenario& scenario_;
   const Equations& equations_;
-  // ∂u/∂μ and ∂v/∂μ: a row for each μ, a column for each body; ∂W/∂μ: a column for each contact; of
-  // δ_y of contacts, and then slack positions of supports: a column for each.
-  Eigen::ArrayXXd u_, v_, work_, memory_;
-  // Whether one of memory_ is not 0.
+  // ∂y/∂μ, a row for each μ: u and v of the bodies and W of the contacts, placed as in y. Then δ_y
+  // of the contacts and slack positions of the supports.
+  Eigen::ArrayXXd y_;
+  // Whether one of the last is not 0.
   bool remembers_ = false;
   LinkedBodies linked_;
   const Method* method_ = nullptr;
-  Stages stages_;
+  // The length of a part in time by the pace of each stage [s], and the laws of all links there.
+  double pace_[2] = {};
+  std::vector<std::array<Law, 2>> laws_;
   // Of the accelerations at both stages, those of a body beside each other.
   BandedSystem system_;
-  // ∂u/∂μ and ∂v/∂μ of the linked bodies and ∂W/∂μ of the active contacts, a column each.
-  Eigen::ArrayXXd x_;
   // Accelerations at both stages of each linked body, by the clock of the part; right sides before.
   Eigen::ArrayXXd sides_;
   // u and v of the linked bodies at each stage.
