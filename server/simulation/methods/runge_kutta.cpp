@@ -60,7 +60,7 @@ void RungeKutta::Errors(Eigen::Index first, Eigen::Index rows_wanted, double* er
                         double* error3) const {
   const std::ptrdiff_t n = size();
   const double* k = k_.data() + first;
-  const auto estimate = [=](auto rows, std::ptrdiff_t i) {
+  const auto estimate = [=](auto rows, std::ptrdiff_t i) __attribute__((always_inline)) {
     const auto slope = [=](int stage) { return rows(k + stage * n + i); };
     rows(error5 + i) =
         0.1312004499419488073250102996e-1 * slope(0) - 0.1225156446376204440720569753e1 * slope(5) -

@@ -118,25 +118,4 @@ void MovingSystem::RefreshActive() {
   ++evaluations;
 }
 
-std::pair<DeformationPath::End, DeformationPath::End> MovingSystem::PathEnds(const Sides& sides,
-                                                                             double at_base) const {
-  const int n = equations.bodies();
-  const double bend = 2 * step.h * (1 - step.warp);  // d²t/dθ²
-  const auto end = [&](const auto& y, const auto& slope, double theta) {
-    const double rate = sides.Relative(y.data() + n);
-    const double acceleration = sides.Relative(slope.data() + n);
-    const double dt = step.h * step.Rate(theta);
-    return DeformationPath::End{sides.Relative(y.data()) + at_base, dt * rate,
-                                dt * dt * acceleration + bend * rate};
-  };
-  auto first = end(rk.y0, rk.slope0, 0), last = end(rk.y1, rk.slope1, 1);
-  if (implicit) {
-    // Strong damping makes of small errors of δ̇ large ones of δ̈: the cubic without them.
-    const double rise = 6 * (last.value - first.value);
-    first.curvature = rise - 4 * first.slope - 2 * last.slope;
-    last.curvature = 2 * first.slope + 4 * last.slope - rise;
-  }
-  return {first, last};
-}
-
 }  // namespace contact
