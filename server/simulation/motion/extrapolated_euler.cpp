@@ -5,6 +5,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "simulation/methods/rows.h"
 #include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
@@ -104,17 +105,25 @@ void ExtrapolatedEuler::Integrate(const Vector& y0, const Vector& slope0, double
   auto moved = table_.col(parts - 1);
   Assemble(part);
   slope_ = slope0;
+  y_.resize(2 * n);
   moved.setZero();
+  const double *from = y0.data(), *slope = slope_.data();
+  double *y = y_.data(), *motion = moved.data();
   for (int i = 1; i <= parts; ++i) {
     // Loads are those at the end of the part, as what answers to them is.
     equations_.AddLoadChange(time + (i - 1) * part, time + i * part, slope_.data() + n);
     Accelerate(part);
-    moved.head(2 * n) += part * slope_.head(2 * n);
-    moved.head(n) += part * part * slope_.segment(n, n);  // u by v at the end of the part.
+    InRows(2 * n, [=](auto rows, std::ptrdiff_t j) { rows(motion + j) += part * rows(slope + j); });
+    InRows(n, [=](auto rows, std::ptrdiff_t j) {  // u by v at the end of the part.
+      rows(motion + j) += part * part * rows(slope + n + j);
+    });
     Carry(time + (i - 1) * part, time + i * part, moved);
-    y_ = y0 + moved;
+    InRows(2 * n,
+           [=](auto rows, std::ptrdiff_t j) { rows(y + j) = rows(from + j) + rows(motion + j); });
     equations_(time + i * part, y_.data(), slope_.data());
-    moved.tail(quadratures) += part * slope_.tail(quadratures);
+    InRows(quadratures, [=](auto rows, std::ptrdiff_t j) {
+      rows(motion + 2 * n + j) += part * rows(slope + 2 * n + j);
+    });
   }
 }
 
