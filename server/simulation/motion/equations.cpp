@@ -256,7 +256,7 @@ void Equations::EvaluateMany(double t, const double* y, double* dy, double pace)
     PlaceDriven(t, placed_.data());
     y = placed_.data();
   }
-  WithCount<1, 2, 3>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
+  WithCount<1, 2, 3, 4, 5>(bodies(), [&](auto n) { Evaluate(n, t, y, dy, pace); });
 }
 
 void Equations::AddSupports(const double* y, double* dy, double pace) const {

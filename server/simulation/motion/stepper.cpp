@@ -279,7 +279,7 @@ double Stepper::Error() {
     system_.rk.Errors(0, 2 * n, error5_.data(), error3_.data());
   }
   double error = 0;
-  WithCount<1, 2, 3>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
+  WithCount<1, 2, 3, 4, 5>(n, [&](auto count) { error = ErrorNorm(count, system_.step.h); });
   return error;
 }
 
