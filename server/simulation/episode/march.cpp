@@ -220,7 +220,6 @@ void March::Advance(const Sight& sight, const GroupSight& miss) {
 // has its verdict.
 void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, Precision how) {
   const Timeline timeline = Read(sight);
-  const GroupSight group = miss;
   const Ids block = timeline.Block(miss, 0, kSearch.block);
   const Ids wide = timeline.Block(miss, kSearch.at_once, kSearch.block);
   const bool ahead = how == Precision::kAhead;
@@ -229,10 +228,10 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
     blurs_ = false;
     const Hybrid::End end =
-        SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &group : nullptr);
+        SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &miss : nullptr);
     if (end == Hybrid::End::kLimit) GiveUp(ids);
     unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
-             std::abs(group.Miss()) > kUnlike * goal;
+             std::abs(miss.Miss()) > kUnlike * goal;
     if (unlike && ++unlike_ <= kMostUnlike) return;
     if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
     if (blurs_) break;
@@ -241,7 +240,7 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
     const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
     if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
   }
-  Verdict(group, block, goal, how);
+  Verdict(miss, block, goal, how);
 }
 
 // Whether this pass has the slopes of a block.
