@@ -53,7 +53,7 @@ void Sampler::OnStep(const StepTime& step) {
 
 void Sampler::Append(double time, const Eigen::ArrayXd& y, std::vector<double>* row) {
   const Equations& equations = motion_.equations();
-  const int n = equations.bodies();
+  const Eigen::Index n = equations.bodies();
   slope_.resize(y.size());
   equations(time, y.data(), slope_.data());
   for (int i = 0; i < n; ++i) {
