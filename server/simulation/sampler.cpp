@@ -41,7 +41,7 @@ void Sampler::OnStep(const StepTime& step) {
   planned_.clear();
   if (!log_.full()) FindCycleSamples(scenario_, motion_, step, &planned_);
   turn_finder_.Find(step, motion_.equations().base(), &turns_);
-  bool prepared = !turns_.empty();
+  bool prepared = !turns_.empty();  // Where there are turns, the finder has.
   const auto take = [&](double time, std::vector<double>* row) {
     if (!prepared) motion_.PrepareInterpolation();
     prepared = true;

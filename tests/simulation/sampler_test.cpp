@@ -295,15 +295,6 @@ std::vector<int> RowsIn(const Record& r, double start, double end) {
   return rows;
 }
 
-Scenario BouncingBall() {
-  Scenario s;
-  s.bodies = {testing::Ball(0.2)};
-  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e8, .restitution = 0.8}};
-  s.loads = {{.body = 0, .constant = -0.5 * 9.81}};
-  s.end_time = 1;
-  return s;
-}
-
 TEST(CycleSamples, AreEvenlySpreadFromTheStartOfEachCycle) {
   const Record r = Sampled(testing::Collision(0.3, 2, 5e7, 1.5, 0.7));
   ASSERT_EQ(r.cycles.size(), 1u);
@@ -332,7 +323,7 @@ TEST(CycleSamples, ThatNobodyAskedForAreOnlyWhereThoseOfTheIntervalAreRarer) {
 }
 
 TEST(CycleSamples, EveryBounceHasThemHoweverLongTheFlights) {
-  const Record r = Sampled(BouncingBall());
+  const Record r = Sampled(testing::BouncingBall());
   ASSERT_GE(r.cycles.size(), 2u);
   for (const Cycle& cycle : r.cycles) {
     if (cycle.end != Cycle::End::kSeparation) continue;
@@ -344,7 +335,7 @@ TEST(CycleSamples, EveryBounceHasThemHoweverLongTheFlights) {
 
 // The trapezoidal rule over the samples: the area of a loop is the energy lost.
 TEST(CycleSamples, LoopsHaveTheAreaOfTheEnergyLost) {
-  const Record r = Sampled(BouncingBall());
+  const Record r = Sampled(testing::BouncingBall());
   const Cycle& cycle = r.cycles.at(0);
   double area = 0;
   const std::vector<int> rows = RowsIn(r, cycle.start_time, cycle.end_time);
@@ -412,7 +403,7 @@ TEST(CycleSamples, OfACycleThatCreepsGrowOnlyWithEachDoubling) {
 }
 
 TEST(CycleSamples, OfAContactThatRestsThereAreNone) {
-  Scenario s = BouncingBall();
+  Scenario s = testing::BouncingBall();
   s.end_time = 10;
   const Record r = Sampled(s);
   const Cycle& rest = r.cycles.back();
@@ -429,6 +420,23 @@ TEST(CycleSamples, EndAtTheirLimitWithAWarning) {
   ASSERT_EQ(r.warnings.size(), 1u);
   EXPECT_NE(r.warnings[0].find("samples_per_contact"), std::string::npos);
   EXPECT_TRUE(Sampled(testing::TripleChain()).warnings.empty());
+}
+
+// With one at the start of each bounce, the ball turns at the floor and at the top before the next.
+TEST(CycleSamples, AreAsManyAsTheirLimitHoweverManyExtremesThereAre) {
+  Scenario s = testing::BouncingBall();
+  s.sample_interval = s.end_time;
+  s.samples_per_contact = 1;
+  s.most_contact_samples = 3;
+  const Record without = RunAndRecord(s);
+  ASSERT_EQ(without.rows(), 2 + 3);
+  s.turning_channels = 3;
+  const Record with = RunAndRecord(s);
+  EXPECT_GT(with.rows(), 2 + 3);
+  for (int row = 0; row < without.rows(); ++row) {
+    const double time = without.Sample(row, 0);
+    EXPECT_EQ(RowsIn(with, time, time).size(), 1u) << time;
+  }
 }
 
 TEST(CycleSamples, WithoutATrajectoryThereAreNone) {

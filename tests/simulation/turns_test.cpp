@@ -91,14 +91,11 @@ TEST(Turns, OfMotionThatSamplesShowAreNone) {
   EXPECT_EQ(RunAndRecord(s).rows(), 85);  // At 0 and then 8 in each of 10.5 periods.
 }
 
-// A ball that falls on a floor, several times between two samples.
+// It touches the floor several times between two samples.
 Scenario Bounces() {
-  Scenario s;
-  s.bodies = {testing::Ball(0.1)};
-  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e8, .restitution = 0.8}};
-  s.loads = {{.body = 0, .constant = -0.5 * 9.81}};
-  s.end_time = 1;
-  return Turning(s, 1.0 / 16);
+  Scenario s = testing::BouncingBall();
+  s.end_time = 2;
+  return Turning(s, 1.0 / 8);
 }
 
 // Between samples that lie in no cycle.

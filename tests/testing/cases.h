@@ -140,6 +140,16 @@ inline Scenario Column(int balls, double stiffness, double restitution, double g
   return s;
 }
 
+/// A ball of 0.5 kg that falls 0.15 m onto a floor, and bounces for a second.
+inline Scenario BouncingBall() {
+  Scenario s;
+  s.bodies = {Ball(0.2)};
+  s.contacts = {{.name = "floor", .right = 0, .stiffness = 1e8, .restitution = 0.8}};
+  s.loads = {{.body = 0, .constant = -0.5 * 9.81}};
+  s.end_time = 1;
+  return s;
+}
+
 /// Keeps everything that a run reports.
 struct Record : Observer {
   std::vector<Iteration> iterations;

@@ -168,7 +168,7 @@ void serialize(Archive& archive, Extremes& e) {
 
 template <class Archive>
 void serialize(Archive& archive, Sampling& s) {
-  archive(s.pending, s.regular, s.last, s.due, s.extremes);
+  archive(s.pending, s.regular, s.in_cycles, s.last, s.due, s.extremes);
 }
 
 template <class Archive>

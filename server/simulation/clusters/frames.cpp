@@ -50,6 +50,7 @@ void Frames::FindSamples(double from, double until, const Pieces& pieces) {
 // What begins at `until` may not be solved yet: its turns there come the next time.
 void Frames::FindTurns(double from, double until, const Pieces& pieces) {
   turns_.clear();
+  if (scenario_.turning_channels == 0) return;
   for (const auto& [number, piece] : pieces) {
     if (piece->begins() >= until) continue;
     const auto& turns = piece->trace.turns;

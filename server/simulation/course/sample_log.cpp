@@ -90,12 +90,16 @@ void SampleLog::CutShort() {
 
 bool SampleLog::full() const {
   const bool asked = scenario_.sample_interval > 0 && scenario_.samples_per_contact > 0;
-  return asked && next_ - regular_ >= scenario_.most_contact_samples;
+  return asked && in_cycles_ >= scenario_.most_contact_samples;
 }
 
 Sampling SampleLog::Save() const {
-  Sampling now{
-      .pending = samples_, .regular = regular_, .last = last_, .due = due_, .extremes = extremes_};
+  Sampling now{.pending = samples_,
+               .regular = regular_,
+               .in_cycles = in_cycles_,
+               .last = last_,
+               .due = due_,
+               .extremes = extremes_};
   now.pending.first = next_ - samples_.rows();
   return now;
 }
@@ -103,6 +107,7 @@ Sampling SampleLog::Save() const {
 void SampleLog::Restore(Sampling from) {
   next_ = from.pending.first + from.pending.rows();
   regular_ = from.regular;
+  in_cycles_ = from.in_cycles;
   last_ = from.last;
   due_ = from.due;
   extremes_ = std::move(from.extremes);

@@ -81,7 +81,7 @@ class SampleLog {
       TakeExtremes();
       const double time = in_cycle ? next.time : regular;
       if (!Begin(std::min(time, scenario_.end_time))) return;
-      if (!in_cycle) ++regular_;
+      ++(in_cycle ? in_cycles_ : regular_);
       take(time, &samples_.values);
       End();
     }
@@ -114,12 +114,13 @@ class SampleLog {
   const std::stop_token stop_;
   const std::function<void(const Samples&)> hand_out_;
   bool cut_short_ = false;
-  std::int64_t next_ = 0;     // Index of the next sample in the trajectory.
-  std::int64_t regular_ = 0;  // Samples at multiples of the interval so far.
-  double last_ = 0;           // Time of the last sample [s].
-  std::int64_t steps_ = 0;    // Of the run so far.
-  std::int64_t due_;          // The number of steps at which the chunk is handed out, full or not.
-  Samples samples_;           // The chunk that is being filled.
+  std::int64_t next_ = 0;       // Index of the next sample in the trajectory.
+  std::int64_t regular_ = 0;    // Samples at multiples of the interval so far.
+  std::int64_t in_cycles_ = 0;  // Samples because of cycles so far.
+  double last_ = 0;             // Time of the last sample [s].
+  std::int64_t steps_ = 0;      // Of the run so far.
+  std::int64_t due_;  // The number of steps at which the chunk is handed out, full or not.
+  Samples samples_;   // The chunk that is being filled.
   std::vector<Extremes> extremes_;  // Since the last sample.
   std::vector<double> row_;         // Scratch.
 };

@@ -33,10 +33,11 @@ struct Extremes {
 
 /// How far the trajectory is recorded.
 struct Sampling {
-  Samples pending;           ///< Taken and not reported yet; `first` is theirs.
-  std::int64_t regular = 0;  ///< Samples at multiples of the interval so far.
-  double last = 0;           ///< Time of the last sample [s].
-  std::int64_t due = 0;      ///< Steps of the run at which `pending` is handed out, full or not.
+  Samples pending;             ///< Taken and not reported yet; `first` is theirs.
+  std::int64_t regular = 0;    ///< Samples at multiples of the interval so far.
+  std::int64_t in_cycles = 0;  ///< Samples because of cycles so far.
+  double last = 0;             ///< Time of the last sample [s].
+  std::int64_t due = 0;        ///< Steps of the run at which `pending` is handed out, full or not.
   std::vector<Extremes> extremes;  ///< Since the last sample, of each turning channel.
 };
 

@@ -60,8 +60,9 @@ class BandedSystem {
   std::ptrdiff_t size_ = 0;
   // How far from the diagonal numbers may be.
   std::ptrdiff_t band_ = 0;
-  // Row by row, and one more, from `band_` before the diagonal to as far behind it; after Factor L
-  // below the diagonal, on it the inverses of those of U.
+  // Row by row, from `band_` before the diagonal to as far behind it, and a row past the last,
+  // where a walk along the diagonal ends; after Factor L below the diagonal, on it the inverses of
+  // those of U.
   std::vector<double> matrix_;
 };
 
