@@ -422,17 +422,19 @@ TEST(CycleSamples, EndAtTheirLimitWithAWarning) {
   EXPECT_TRUE(Sampled(testing::TripleChain()).warnings.empty());
 }
 
-// With one at the start of each bounce, the ball turns at the floor and at the top before the next.
+// Of a second body that swings, while the ball still falls.
 TEST(CycleSamples, AreAsManyAsTheirLimitHoweverManyExtremesThereAre) {
   Scenario s = testing::BouncingBall();
+  s.bodies.push_back(testing::Ball(5));
+  s.supports = {{.body = 1, .stiffness = 5e3, .rest_position = 4.9}};
   s.sample_interval = s.end_time;
-  s.samples_per_contact = 1;
-  s.most_contact_samples = 3;
+  s.samples_per_contact = 20;
+  s.most_contact_samples = 5;
   const Record without = RunAndRecord(s);
-  ASSERT_EQ(without.rows(), 2 + 3);
-  s.turning_channels = 3;
+  ASSERT_EQ(without.rows(), 2 + 5);
+  s.turning_channels = 5;
   const Record with = RunAndRecord(s);
-  EXPECT_GT(with.rows(), 2 + 3);
+  EXPECT_GT(with.rows(), 2 + 5);
   for (int row = 0; row < without.rows(); ++row) {
     const double time = without.Sample(row, 0);
     EXPECT_EQ(RowsIn(with, time, time).size(), 1u) << time;

@@ -127,18 +127,16 @@ TEST(Turns, TheLargestForceOfAContactBetweenTwoSamplesIsThatOfTheLedger) {
   EXPECT_GE(compared, 5);
 }
 
-// Round-off makes it turn again and again.
+// Round-off makes balls that lie on each other turn again and again.
 TEST(Turns, WhatRestsHasNone) {
-  Scenario s = Bounces();
-  s.end_time = 8;
-  s.sample_interval = 0.5;
-  const Record r = RunAndRecord(s);
-  ASSERT_EQ(r.cycles.back().status, Cycle::Status::kSettled);
-  const double rests = r.cycles.back().start_time;
-  EXPECT_LT(rests, 4);
-  int late = 0;
-  for (int row = 0; row < r.rows(); ++row) late += r.Sample(row, 0) > 4 ? 1 : 0;
-  EXPECT_EQ(late, 8);
+  for (const int balls : {1, 2, 3, 5}) {
+    Scenario s = testing::Column(balls, 1e7, 0.5, 0.001);
+    s.end_time = 3;
+    const Record r = RunAndRecord(Turning(s, 0.1));
+    int late = 0;
+    for (int row = 0; row < r.rows(); ++row) late += r.Sample(row, 0) > 1.5 ? 1 : 0;
+    EXPECT_EQ(late, 15) << balls;
+  }
 }
 
 TEST(Turns, OfForcesAloneTakeNothingOfBodies) {
@@ -149,19 +147,20 @@ TEST(Turns, OfForcesAloneTakeNothingOfBodies) {
   EXPECT_LT(r.rows(), all.rows());
 }
 
-// A gas is solved in clusters, each with a clock of its own.
+// A gas is solved in clusters, each with a clock of its own. In these, round-off decides of which
+// sign a force is where a contact ends, and which of two equal turns is larger.
 TEST(Turns, InClustersAreThoseOfTheWhole) {
-  for (const int balls : {3, 8}) {
-    const Scenario s = testing::Gas(balls, 1e8, 3);
+  for (const unsigned seed : {3U, 9U, 21U, 23U, 30U}) {
+    const Scenario s = testing::Gas(8, 1e8, seed);
     const Scenario turning = Turning(s, s.end_time / 3);
     const Record parts = RunAndRecord(turning);
     Record whole;
     whole.outcome = RunWhole(turning, whole);
     ExpectLaterAndLater(parts);
     EXPECT_GT(parts.rows(), 4);
-    ASSERT_EQ(parts.rows(), whole.rows());
+    ASSERT_EQ(parts.rows(), whole.rows()) << seed;
     for (int row = 0; row < parts.rows(); ++row) {
-      EXPECT_NEAR(parts.Sample(row, 0), whole.Sample(row, 0), 1e-8 * s.end_time) << row;
+      EXPECT_NEAR(parts.Sample(row, 0), whole.Sample(row, 0), 1e-6 * s.end_time) << row;
     }
   }
 }
