@@ -85,6 +85,7 @@ RunState PieceSolver::Begin(const Cast& cast, const Scenario& part, const RunSta
   }
   now.missed = run.missed;
   now.solved_until = cast.outlook.solved_until;
+  now.record_until = cast.outlook.record_until;
   now.cut_since = cast.outlook.cut_since;
   now.unknowns = cast.outlook.unknowns;
   now.rest_ends = cast.outlook.rest_ends;
@@ -208,6 +209,7 @@ void PieceSolver::Close(const RunState& run, Work* work) const {
   for (RestEnd& rest : now.rest_ends) rest.before.contact = whole(rest.before.contact);
   end.outlook = {.step = now.state.step,
                  .solved_until = now.solved_until,
+                 .record_until = now.record_until,
                  .cut_since = now.cut_since,
                  .unknowns = std::move(now.unknowns),
                  .rest_ends = std::move(now.rest_ends),

@@ -19,6 +19,7 @@ namespace contact {
 struct Outlook {
   double step = 0;          ///< State::step.
   double solved_until = 0;  ///< As of RunState, and the next.
+  double record_until = kNever;
   double cut_since = kNever;
   std::vector<Unknown> unknowns;
   std::vector<RestEnd> rest_ends;

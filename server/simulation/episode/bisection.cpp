@@ -47,6 +47,10 @@ constexpr double kLongerPass = 10;
 
 }  // namespace
 
+double Bisection::Until(const GroupSight& group) {
+  return group.end_time + kLongerPass * (group.end_time - group.start_time);
+}
+
 Bisection::Point Bisection::At(double mu, bool slope) {
   Unknown& unknown = problem_.groups.At(group_.id);
   unknown.mu = mu;
@@ -82,7 +86,7 @@ Root Bisection::Solve(const GroupSight& group, bool sharply, double near) {
   group_ = group;
   near_ = std::min(near, kRoot);
   sharply_ = sharply;
-  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
+  until_ = Until(group);
   error_ = kCoarseTolerance;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
@@ -122,7 +126,7 @@ bool Bisection::Scan(const GroupSight& group) {
 bool Bisection::ScanBelow(const GroupSight& group, const Sight& sight) {
   group_ = group;
   near_ = kRoot;
-  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
+  until_ = Until(group);
   error_ = kCoarseTolerance;
   sharply_ = false;
   below_ = kBelow * group.mu;

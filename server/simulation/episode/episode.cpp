@@ -28,6 +28,7 @@ void EpisodeSolver::Save(RunState* state) const {
   state->growths = log_.growths;
   state->growths_no_progress = log_.growths_no_progress;
   state->solved_until = solved_until_;
+  state->record_until = record_until_;
   state->cut_since = problem_.groups.cut_since();
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
@@ -41,6 +42,7 @@ void EpisodeSolver::Restore(const RunState& state) {
   log_.growths = state.growths;
   log_.growths_no_progress = state.growths_no_progress;
   solved_until_ = state.solved_until;
+  record_until_ = state.record_until;
   problem_.groups.set_cut_since(state.cut_since);
   for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
   for (const auto& [id, time] : state.rest_ends) problem_.groups.NoteRestEnd(id, time);
@@ -63,9 +65,9 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
   episode_ = episode;
   bool sought = false;
   for (int c = 0; c < std::ssize(scenario_.contacts); ++c) sought |= IsSought(scenario_, c);
-  record_until_ = end;
   tentative_ = false;
   const bool solved = start.time < solved_until_ && !Wakes(start);
+  if (!solved) record_until_ = end;
   if (!sought || solved) return Motion::Pause::kQuiet;
   problem_.Begin(start, end, stop, step_limit);
   if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {

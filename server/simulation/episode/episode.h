@@ -59,7 +59,7 @@ class EpisodeSolver {
   Recorder recorder_;
   int episode_ = 0;
   double solved_until_ = 0;  // All that begins before has its answer.
-  double record_until_ = 0;
+  double record_until_ = kNever;
   bool tentative_ = false;
   bool rejected_ = false;  // A recording has shown that the episode is not solved.
 };

@@ -43,7 +43,7 @@ March::Ids March::Note(const Sight& sight) {
   Ids changed;
   for (const GroupSight& g : sight.groups) {
     Unknown& u = problem_.groups.At(g.id);
-    u.cut = !g.ended || g.end_time > problem_.end();
+    if (g.ended || sight.time >= problem_.end()) u.cut = !g.ended || g.end_time > problem_.end();
     if (!g.ended) continue;
     if (u.length == 0) u.length = g.length, u.speed = g.speed;
     // A coarse pass may find what is negligible, but not that it is no more.
