@@ -236,7 +236,8 @@ void serialize(Archive& archive, Trace& t) {
 
 template <class Archive>
 void serialize(Archive& archive, Outlook& o) {
-  archive(o.step, o.solved_until, o.record_until, o.cut_since, o.unknowns, o.rest_ends, o.episode);
+  archive(o.step, o.solved_until, o.record_until, o.finely, o.cut_since, o.unknowns, o.rest_ends,
+          o.episode);
 }
 
 template <class Archive>
@@ -279,7 +280,7 @@ template <class Archive>
 void serialize(Archive& archive, RunState& s) {
   archive(s.state, s.outcome, s.cycles, s.steps, s.evaluations, s.iterations);
   archive(s.start_energy, s.start_momentum, s.energy_scale, s.momentum_scale);
-  archive(s.growths, s.growths_no_progress, s.solved_until, s.record_until, s.cut_since);
+  archive(s.growths, s.growths_no_progress, s.solved_until, s.record_until, s.finely, s.cut_since);
   archive(s.unknowns, s.rest_ends, s.warned, s.missed, s.unproven, s.sampling);
   bool parted = s.clusters != nullptr;
   archive(parted);

@@ -86,6 +86,7 @@ RunState PieceSolver::Begin(const Cast& cast, const Scenario& part, const RunSta
   now.missed = run.missed;
   now.solved_until = cast.outlook.solved_until;
   now.record_until = cast.outlook.record_until;
+  now.finely = cast.outlook.finely;
   now.cut_since = cast.outlook.cut_since;
   now.unknowns = cast.outlook.unknowns;
   now.rest_ends = cast.outlook.rest_ends;
@@ -210,6 +211,7 @@ void PieceSolver::Close(const RunState& run, Work* work) const {
   end.outlook = {.step = now.state.step,
                  .solved_until = now.solved_until,
                  .record_until = now.record_until,
+                 .finely = now.finely,
                  .cut_since = now.cut_since,
                  .unknowns = std::move(now.unknowns),
                  .rest_ends = std::move(now.rest_ends),

@@ -20,6 +20,7 @@ struct Outlook {
   double step = 0;          ///< State::step.
   double solved_until = 0;  ///< As of RunState, and the next.
   double record_until = kNever;
+  bool finely = false;
   double cut_since = kNever;
   std::vector<Unknown> unknowns;
   std::vector<RestEnd> rest_ends;

@@ -10,11 +10,16 @@ namespace {
 
 // A stretch that the paper's process takes as one episode has at most so many cycles.
 constexpr int kPaperCycles = 120;
+// The tolerance to which an episode is solved once its recording has denied what was found with the
+// scenario's: of weak cycles beside much larger motions round-off is left. The least of the
+// contract.
+constexpr double kFinestTolerance = 1e-13;
 
 }  // namespace
 
 EpisodeSolver::EpisodeSolver(const Scenario& scenario, Motion& motion, Observer& observer)
     : scenario_(scenario),
+      motion_(motion),
       problem_(scenario, motion, observer),
       log_(observer),
       bisection_(problem_),
@@ -29,6 +34,7 @@ void EpisodeSolver::Save(RunState* state) const {
   state->growths_no_progress = log_.growths_no_progress;
   state->solved_until = solved_until_;
   state->record_until = record_until_;
+  state->finely = finely_;
   state->cut_since = problem_.groups.cut_since();
   state->unknowns.clear();
   for (const auto& [id, unknown] : problem_.groups.known()) state->unknowns.push_back(unknown);
@@ -43,6 +49,7 @@ void EpisodeSolver::Restore(const RunState& state) {
   log_.growths_no_progress = state.growths_no_progress;
   solved_until_ = state.solved_until;
   record_until_ = state.record_until;
+  finely_ = state.finely;
   problem_.groups.set_cut_since(state.cut_since);
   for (const Unknown& unknown : state.unknowns) problem_.groups.At(unknown.id) = unknown;
   for (const auto& [id, time] : state.rest_ends) problem_.groups.NoteRestEnd(id, time);
@@ -57,7 +64,8 @@ Recorder& EpisodeSolver::Record(bool repeatable) {
 
 Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
                                    const std::stop_token& stop, std::int64_t step_limit) {
-  if (episode != episode_) {
+  const bool begins = episode != episode_;
+  if (begins) {
     problem_.groups.ForgetBegun(start);
     log_.Begin(episode, start.time);
     rejected_ = false;
@@ -68,6 +76,8 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
   tentative_ = false;
   const bool solved = start.time < solved_until_ && !Wakes(start);
   if (!solved) record_until_ = end;
+  if (!solved && begins) finely_ = false;
+  motion_.set_finest(finely_ ? kFinestTolerance : scenario_.solver.relative_tolerance);
   if (!sought || solved) return Motion::Pause::kQuiet;
   problem_.Begin(start, end, stop, step_limit);
   if (scenario_.solver.update != UpdateRule::kNewtonCoupled) {
@@ -85,6 +95,7 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
 Motion::Pause EpisodeSolver::Foresee(const State& start, double end, const std::stop_token& stop,
                                      std::int64_t step_limit) {
   if (std::ranges::none_of(start.contacts, Rests)) return Motion::Pause::kQuiet;
+  motion_.set_finest(scenario_.solver.relative_tolerance);
   problem_.Begin(start, end, stop, step_limit);
   const Motion::Pause pause = problem_.SeeFlight();
   const bool completed = !problem_.Aborted() && pause != Motion::Pause::kNumeric;
@@ -106,14 +117,25 @@ void EpisodeSolver::Accept(const Sight& sight, double until) {
   log_.Accept(sight);
 }
 
+// A tolerance that is coarser than the default is what the user wants to see.
+bool EpisodeSolver::MayBeFiner() const {
+  const SolverOptions& options = scenario_.solver;
+  return !finely_ && options.relative_tolerance > kFinestTolerance &&
+         options.relative_tolerance <= SolverOptions{}.relative_tolerance &&
+         options.update == UpdateRule::kNewtonCoupled;
+}
+
 bool EpisodeSolver::Accepts(Motion::Pause pause) {
-  if (!tentative_) return true;
-  const bool complete = pause == Motion::Pause::kQuiet && problem_.IsOpen();
   const bool broken = pause == Motion::Pause::kStopped || pause == Motion::Pause::kStepLimit;
-  if (broken || (complete && recorder_.sound())) {
-    log_.Accept(recorder_.groups);
+  const bool complete = pause == Motion::Pause::kQuiet && problem_.IsOpen();
+  const bool holds =
+      tentative_ ? complete && recorder_.sound() : !recorder_.denies() || !MayBeFiner();
+  if (broken || holds) {
+    if (tentative_) log_.Accept(recorder_.groups);
+    recorder_.TellFaults();
     return true;
   }
+  if (!tentative_) finely_ = true, solved_until_ = 0;
   rejected_ = true;
   return false;
 }

@@ -34,7 +34,8 @@ class EpisodeSolver {
   /// Whether what is recorded has yet to show that the episode is solved.
   bool tentative() const { return tentative_; }
   /// Looks at the recording, which has ended for this reason. False: the episode is to be solved
-  /// again, and recorded anew.
+  /// again, and recorded anew; with the finest tolerance, if the recording denies a group that was
+  /// not tentative.
   bool Accepts(Motion::Pause pause);
 
   /// Begins the recording of the episode, or of the flight after it; hosts it. `repeatable`: see
@@ -48,8 +49,10 @@ class EpisodeSolver {
 
  private:
   void Accept(const Sight& sight, double until);
+  bool MayBeFiner() const;
 
   const Scenario& scenario_;
+  Motion& motion_;
   Problem problem_;
   IterationLog log_;
   Bisection bisection_;
@@ -60,6 +63,7 @@ class EpisodeSolver {
   int episode_ = 0;
   double solved_until_ = 0;  // All that begins before has its answer.
   double record_until_ = kNever;
+  bool finely_ = false;  // With the finest tolerance.
   bool tentative_ = false;
   bool rejected_ = false;  // A recording has shown that the episode is not solved.
 };

@@ -98,7 +98,7 @@ Sight Problem::March(const std::vector<GroupId>& block, const Marching& how) {
                             .to_miss = how.miss,
                             .block_until = how.until,
                             .block = block});
-  sight.exact = tolerance == 0 || tolerance <= scenario_.solver.relative_tolerance;
+  sight.exact = tolerance == 0 || tolerance <= motion_.finest();
   seen_ = sight.time;
   return sight;
 }
@@ -107,7 +107,7 @@ Motion::Pause Problem::SeeFlight() { return Look(nullptr, {.until = end_, .patie
 
 // The tolerance of a pass that need not be more exact than this.
 double Problem::Tolerance(double wanted) const {
-  const double finest = scenario_.solver.relative_tolerance;
+  const double finest = motion_.finest();
   if (scenario_.solver.clip_tension) return 0;
   return std::clamp(wanted, finest, std::max(kCoarsest, finest));
 }

@@ -52,6 +52,8 @@ void Recorder::Begin(int episode, bool repeatable) {
   disturbed_ = false;
   membership_.Begin(false);
   sound_ = true;
+  denies_ = false;
+  faults_.clear();
   cycles.clear();
   groups.clear();
 }
@@ -217,12 +219,18 @@ void Recorder::Disprove(ContactState& state, const std::string& fault) {
   state.member.nothing = state.cycle.work_compression <= kNothing * energy;
   state.member.disproved = true;
   if (state.member.nothing) return;
-  const auto contact = At(state.cycle.contact);
-  if (unproven_[contact]) return;
-  unproven_[contact] = true;
-  observer_.OnWarning("contact " + scenario_.contacts[contact].name + ", cycle " +
-                      std::to_string(state.cycle.number) + " is not proven: " + fault +
-                      "; it is told once for each contact");
+  faults_.emplace_back(state.cycle.contact, ", cycle " + std::to_string(state.cycle.number) +
+                                                " is not proven: " + fault);
+}
+
+void Recorder::TellFaults() {
+  for (const auto& [contact, fault] : faults_) {
+    if (unproven_[At(contact)]) continue;
+    unproven_[At(contact)] = true;
+    observer_.OnWarning("contact " + scenario_.contacts[At(contact)].name + fault +
+                        "; it is told once for each contact");
+  }
+  faults_.clear();
 }
 
 // The group of the cycle that has ended ends with it: sees what it has become.
@@ -257,7 +265,7 @@ void Recorder::Close(ContactState& state) {
   });
   group.beside_cut = group.end_time > known_.cut_since();
   const bool answered = unknown == nullptr || unknown->given_up;
-  if (status == Cycle::Status::kNotConverged && !answered) sound_ = false;
+  if (status == Cycle::Status::kNotConverged && !answered) denies_ = true, sound_ = false;
   for (Cycle& cycle : cycles) {
     if (cycle.contact == group.contact && cycle.group == group.number) cycle.status = status;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "simulation/episode/membership.h"
@@ -33,8 +34,12 @@ class Recorder final : public CycleHost {
   void Save(RunState* state) const;
   void Restore(const RunState& state);
 
-  /// Whether every group that has ended since Begin is one that the search has answered.
+  /// Whether every group that has ended since Begin is one that the search has answered,
   bool sound() const { return sound_; }
+  /// and whether the recorded motion denies what it has found of one.
+  bool denies() const { return denies_; }
+  /// Says which rows of the last recording, which counts, fail their proof.
+  void TellFaults();
 
   std::vector<Cycle> cycles;  ///< Ended since Begin,
   std::vector<Group> groups;  ///< and the groups that ended with them.
@@ -55,10 +60,12 @@ class Recorder final : public CycleHost {
   Membership membership_;
   int episode_ = 0;
   bool sound_ = true;
+  bool denies_ = false;
   bool repeatable_ = false;
   bool disturbed_ = false;
-  std::vector<bool> warned_;    // Per contact.
-  std::vector<bool> missed_;    // Per law.
+  std::vector<bool> warned_;                         // Per contact.
+  std::vector<bool> missed_;                         // Per law.
+  std::vector<std::pair<int, std::string>> faults_;  // By contact, since Begin.
   std::vector<bool> unproven_;  // Contacts of which it was told that a row fails its proof.
 };
 

@@ -48,8 +48,11 @@ class Motion {
   /// The scenario must outlive the motion.
   explicit Motion(const Scenario& scenario);
 
+  /// The relative tolerance of what is begun without another; at first the scenario's.
+  double finest() const { return system_.finest; }
+  void set_finest(double tolerance) { system_.finest = tolerance; }
   /// Takes over a state. Recording: quadratures of the ledger, and no tangents. `tolerance`
-  /// takes the place of the scenario's; 0: the scenario's.
+  /// takes the place of the finest; 0: the finest.
   void Begin(const State& state, bool recording, double tolerance = 0);
 
   /// Moves on until something of Pause happens. Begun where a cycle runs or starts, it goes on

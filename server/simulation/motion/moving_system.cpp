@@ -23,11 +23,12 @@ MovingSystem::MovingSystem(const Scenario& of)
       euler(of, equations),
       tangents(of, equations),
       scales(of.contacts.size()),
-      tolerance(of.solver.relative_tolerance) {}
+      finest(of.solver.relative_tolerance),
+      tolerance(finest) {}
 
 void MovingSystem::Begin(const State& state, bool is_recording, double own_tolerance) {
   const int n = equations.bodies();
-  tolerance = own_tolerance > 0 ? own_tolerance : scenario.solver.relative_tolerance;
+  tolerance = own_tolerance > 0 ? own_tolerance : finest;
   implicit_order = ImplicitOrder(tolerance);
   implicit = false;
   time = state.time;

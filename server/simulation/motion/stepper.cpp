@@ -78,7 +78,7 @@ Stepper::Stepper(MovingSystem& system)
 void Stepper::Begin() {
   flight_length_ = flight_speed_ = 0;
   // What round-off of a stretched spring's force makes of bodies that stand still is no motion.
-  const double digits = kRoundOff / system_.scenario.solver.relative_tolerance;
+  const double digits = kRoundOff / system_.finest;
   for (std::size_t i = 0; i < system_.scenario.supports.size(); ++i) {
     const Support& s = system_.scenario.supports[i];
     const Sides sides = system_.equations.SidesOf(s.body, s.other);
@@ -244,9 +244,7 @@ bool Stepper::TurnsAtOnce() const {
   });
 }
 
-double Stepper::MostError() const {
-  return system_.tolerance > system_.scenario.solver.relative_tolerance ? kEarly : 1;
-}
+double Stepper::MostError() const { return system_.tolerance > system_.finest ? kEarly : 1; }
 
 double Stepper::Growth(double error) const {
   if (error == 0) return kMostGrowth;
@@ -313,7 +311,7 @@ double Stepper::ErrorNorm(Count n, double h) {
   if (!std::isfinite(sum)) return kForever;  // And only then y1 is not finite.
   const double* y = system_.rk.y1.data();
   const Extent extent = Measure(n, h);
-  const double digits = kRoundOff / system_.scenario.solver.relative_tolerance;
+  const double digits = kRoundOff / system_.finest;
   double norm = 0;
   decay_ = 0;
   for (const ActiveContact& active : system_.equations.active) {
