@@ -24,7 +24,7 @@ constexpr double kPeriods = 2;
 constexpr int kMostLate = 10;
 // Steps between two looks at these times; and the steps after which one that an adaptive method
 // takes is stuck.
-constexpr int kStride = 200, kStuck = 50'000;
+constexpr int kStride = 200, kStuck = 20'000;
 // A(ε_in) to which residuals are relative at least, for ε_in near 1.
 constexpr double kLeastGoal = 1e-6;
 // ε_out below this part of ε_in counts as this: A(0) is infinite.

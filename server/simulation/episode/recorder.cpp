@@ -258,7 +258,11 @@ void Recorder::Close(ContactState& state) {
   if (state.member.disproved) status = Cycle::Status::kNotConverged;
   const bool answerless =
       status == Cycle::Status::kNotConverged || status == Cycle::Status::kReleased;
-  if (answerless && (weak || state.member.nothing)) status = Cycle::Status::kSettled;
+  const double work = std::max(group.work_compression, std::abs(group.work_restitution));
+  const bool negligible = work <= scenario_.solver.settled_fraction * state.largest_work;
+  if (answerless && (weak || negligible || state.member.nothing)) {
+    status = Cycle::Status::kSettled;
+  }
   group.status = status;
   std::erase_if(group.other_roots, [&](double mu) {
     return status != Cycle::Status::kConverged || mu <= group.mu * (1 + kSameRoot);
