@@ -36,6 +36,8 @@ Scenario Rolled(std::string_view name, unsigned seed) {
   return Rolled(*std::ranges::find(Machines(), name, &Machine::name), seed);
 }
 
+bool IsOfProof(const std::string& warning) { return warning.find("not proven") != warning.npos; }
+
 bool IsFullWithin(std::int64_t steps, std::string_view name, unsigned seed) {
   Scenario s = Rolled(name, seed);
   s.solver.max_steps = steps;
@@ -113,6 +115,42 @@ TEST(Machines, AreSolvedWherePassesDiffer) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
   EXPECT_TRUE(IsFullWithin(600'000, "stack", 6));
   EXPECT_TRUE(IsFullWithin(600'000, "placed", 7));
+}
+
+// A μ with which a group lasts ten times as long as with the one beside it is one with which it
+// does not end, also when the jump between them is looked at again (press 54, exponents 69).
+TEST(Machines, AreSolvedWhereGroupsDoNotEnd) {
+  if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
+  EXPECT_TRUE(IsFullWithin(100'000, "press", 54));
+  EXPECT_TRUE(IsFullWithin(100'000, "exponents", 69));
+}
+
+// What is solved is recorded up to where it is solved, also where a recording pauses on the way.
+TEST(Machines, AreRecordedNoFurtherThanSolved) {
+  if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
+  EXPECT_TRUE(IsFullWithin(400'000, "placed", 18));
+}
+
+// What weak cycles beside much larger motions do is solved again with the finest tolerance where
+// the recording denies it: their ε, their balance, or that they begin at rest.
+TEST(Machines, AreSolvedFinelyWhereTheirRecordingDeniesThem) {
+  for (const auto& [name, seed] : {std::pair("pulses", 93U), {"ratios", 24U}, {"clamped", 44U}}) {
+    SCOPED_TRACE(name + std::string(" ") + std::to_string(seed));
+    Scenario s = Rolled(name, seed);
+    const Ledger run = RunForLedger(s);
+    if (!kOptimized && run.outcome.end == Outcome::End::kBudgetSteps) continue;
+    EXPECT_TRUE(IsFull(run)) << run.outcome.message;
+    EXPECT_TRUE(std::ranges::none_of(run.warnings, IsOfProof));
+    const Disagreement miss = CompareWithIndependent(s, run);
+    EXPECT_LT(miss.sure, 1e-8) << miss.where;
+    s.solver.relative_tolerance = 2e-11;  // Coarser than the default: as the user wants it.
+    EXPECT_LT(RunForLedger(s).outcome.steps, 0.8 * static_cast<double>(run.outcome.steps));
+  }
+}
+
+// A group whose works are next to nothing has no ε to miss, however many cycles it has.
+TEST(Machines, SettleWhereGroupsOfSeveralCyclesDoNothing) {
+  EXPECT_TRUE(IsFull(RunForLedger(Rolled("zeno", 38))));
 }
 
 // Nearly plastic ones apart, whose restitution is steep in μ where it hardly ends.

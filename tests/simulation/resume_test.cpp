@@ -1,6 +1,7 @@
 // A run that goes on from any of its boundaries is the run that never stopped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "simulation/episode/run_state.h"
+#include "simulation/kinds/machines.h"
 #include "testing/cases.h"
 
 namespace contact {
@@ -106,6 +108,7 @@ Scenario BallThatComesToRest() {
 }
 
 std::vector<std::pair<std::string, Scenario>> Scenarios() {
+  const auto pulses = std::ranges::find(testing::Machines(), "pulses", &testing::Machine::name);
   std::vector<std::pair<std::string, Scenario>> all = {
       {"chain", testing::TripleChain()},
       {"driven wall", testing::SpringWall()},
@@ -131,6 +134,7 @@ std::vector<std::pair<std::string, Scenario>> Scenarios() {
   yields.contacts[0].table = ForceTable({{1e-4, 10}, {1e-3, 200}}, {1e6, 500});
   yields.end_time = 0.3;
   all.emplace_back("table that yields", yields);
+  all.emplace_back("solved again, finely", testing::Roll(*pulses, 93));
   for (auto& [name, scenario] : all) scenario.sample_interval = scenario.end_time / 700;
   for (std::size_t i = 0; i < 6; ++i) {
     all.emplace_back(all[i].first + ", sampled in cycles", all[i].second);
