@@ -118,11 +118,13 @@ TEST(Machines, AreSolvedWherePassesDiffer) {
 }
 
 // A μ with which a group lasts ten times as long as with the one beside it is one with which it
-// does not end, also when the jump between them is looked at again (press 54, exponents 69).
+// does not end, also when the jump between them is looked at again (press 54, exponents 69, late
+// 16).
 TEST(Machines, AreSolvedWhereGroupsDoNotEnd) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
   EXPECT_TRUE(IsFullWithin(100'000, "press", 54));
   EXPECT_TRUE(IsFullWithin(100'000, "exponents", 69));
+  EXPECT_TRUE(IsFullWithin(100'000, "late", 16));
 }
 
 // What is solved is recorded up to where it is solved, also where a recording pauses on the way.

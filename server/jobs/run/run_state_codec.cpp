@@ -181,7 +181,7 @@ void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out);
   archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips, u.cut,
           u.given_up, u.lowered, u.iterations);
-  archive(u.growth, u.missing, u.status, u.too_much, u.too_little, u.other_roots);
+  archive(u.growth, u.missing, u.status, u.too_much, u.too_little, u.tried, u.other_roots);
 }
 
 template <class Archive>

@@ -47,10 +47,6 @@ constexpr double kLongerPass = 10;
 
 }  // namespace
 
-double Bisection::Until(const GroupSight& group) {
-  return group.end_time + kLongerPass * (group.end_time - group.start_time);
-}
-
 Bisection::Point Bisection::At(double mu, bool slope) {
   Unknown& unknown = problem_.groups.At(group_.id);
   unknown.mu = mu;
@@ -77,6 +73,7 @@ Root Bisection::Finish(Root root) {
         .mu = p.mu, .restitution = group_.restitution_in * std::sqrt(1 + std::max(p.excess, -1.0))};
   };
   if (root != Root::kFound && root != Root::kJump) unknown.mu = group_.mu;
+  unknown.tried = until_ - group_.start_time;
   unknown.too_much = more_.there ? reached(more_) : Group::Reached{};
   unknown.too_little = less_.there ? reached(less_) : Group::Reached{};
   return root;
@@ -86,7 +83,7 @@ Root Bisection::Solve(const GroupSight& group, bool sharply, double near) {
   group_ = group;
   near_ = std::min(near, kRoot);
   sharply_ = sharply;
-  until_ = Until(group);
+  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
   error_ = kCoarseTolerance;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
@@ -126,7 +123,7 @@ bool Bisection::Scan(const GroupSight& group) {
 bool Bisection::ScanBelow(const GroupSight& group, const Sight& sight) {
   group_ = group;
   near_ = kRoot;
-  until_ = Until(group);
+  until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
   error_ = kCoarseTolerance;
   sharply_ = false;
   below_ = kBelow * group.mu;

@@ -20,8 +20,6 @@ class Bisection {
  public:
   explicit Bisection(Problem& problem) : problem_(problem) {}
 
-  /// When a group that has not ended in a trial is said not to end [s].
-  static double Until(const GroupSight& group);
   /// `sharply`: a jump is to be told as narrowly as it can be; else it is enough that it is one.
   /// `near`: a root misses by less, relative, in ε²; at most what Newton needs to go on.
   Root Solve(const GroupSight& group, bool sharply, double near = 1);

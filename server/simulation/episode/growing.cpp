@@ -165,7 +165,7 @@ bool Growing::Holds(const GroupSight& group, const Group::Reached& side, double 
   if (std::isnan(side.mu)) return true;
   Unknown& unknown = problem_.groups.At(group.id);
   const double kept = std::exchange(unknown.mu, side.mu);
-  const double until = side.restitution > 0 ? kForever : Bisection::Until(group);
+  const double until = side.restitution > 0 ? kForever : group.start_time + unknown.tried;
   const Sight sight = problem_.Evaluate({group.id}, false, until);
   unknown.mu = kept;
   const GroupSight* seen = sight.Find(group.id);
