@@ -37,6 +37,7 @@ Course::Stretch Course::Episode(const State& start, int number, std::int64_t ste
 // Once it is known where rests end on the way. One that ends at once begins an episode instead.
 Course::Stretch Course::Flight(const State& start, double until, std::int64_t step_limit,
                                Recording& recording) {
+  motion_.set_finest(scenario_.solver.relative_tolerance);
   const Motion::Pause foreseen = solver_.Foresee(start, until, stop_, step_limit);
   if (foreseen != Motion::Pause::kQuiet) return {.pause = foreseen};
   if (solver_.Wakes(start)) return {};
@@ -47,6 +48,7 @@ Course::Stretch Course::Flight(const State& start, double until, std::int64_t st
 
 Motion::Pause Course::Look(const State& start, double until, std::int64_t step_limit,
                            StepListener& listener) {
+  motion_.set_finest(scenario_.solver.relative_tolerance);
   motion_.Begin(start, true);
   return motion_.Advance(until, solver_.Record(false), &listener, stop_, step_limit);
 }

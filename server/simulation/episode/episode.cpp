@@ -95,7 +95,6 @@ Motion::Pause EpisodeSolver::Solve(const State& start, int episode, double end,
 Motion::Pause EpisodeSolver::Foresee(const State& start, double end, const std::stop_token& stop,
                                      std::int64_t step_limit) {
   if (std::ranges::none_of(start.contacts, Rests)) return Motion::Pause::kQuiet;
-  motion_.set_finest(scenario_.solver.relative_tolerance);
   problem_.Begin(start, end, stop, step_limit);
   const Motion::Pause pause = problem_.SeeFlight();
   const bool completed = !problem_.Aborted() && pause != Motion::Pause::kNumeric;

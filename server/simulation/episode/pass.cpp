@@ -23,7 +23,8 @@ constexpr double kPeriods = 2;
 // Under ENCOUNTER as many for each cycle of a group.
 constexpr int kMostLate = 10;
 // Steps between two looks at these times; and the steps after which one that an adaptive method
-// takes is stuck.
+// takes is stuck. With 50,000 settling 88 of the machines takes over a million steps in all, with
+// 10,000 press 11 is not solved.
 constexpr int kStride = 200, kStuck = 20'000;
 // A(ε_in) to which residuals are relative at least, for ε_in near 1.
 constexpr double kLeastGoal = 1e-6;
