@@ -63,7 +63,7 @@ class EpisodeSolver {
   int episode_ = 0;
   double solved_until_ = 0;  // All that begins before has its answer.
   double record_until_ = kNever;
-  bool finely_ = false;  // With the finest tolerance.
+  bool finely_ = false;  // The episode is solved and recorded with the finest tolerance.
   bool tentative_ = false;
   bool rejected_ = false;  // A recording has shown that the episode is not solved.
 };

@@ -60,7 +60,7 @@ struct RunState {
   double energy_scale = 0, momentum_scale = 0;
   double solved_until = 0;         ///< All that begins before has its answer [s].
   double record_until = kNever;    ///< The instant up to which that may be recorded [s].
-  bool finely = false;             ///< With the finest tolerance.
+  bool finely = false;             ///< That has its answer with the finest tolerance.
   double cut_since = kNever;       ///< Groups::cut_since.
   std::vector<Unknown> unknowns;   ///< What is known of groups that begin later.
   std::vector<RestEnd> rest_ends;  ///< Groups::rest_ends.

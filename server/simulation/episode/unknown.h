@@ -49,7 +49,7 @@ struct Unknown {
   /// kConverged, kJump, kLimited, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;
-  double tried = 0;  ///< What has not ended so long after its start did not end there [s].
+  double tried = 0;  ///< What lasts longer in a trial of the search does not end in it [s].
   std::vector<double> other_roots;  ///< Larger μ that solve its balance, too, as they were seen.
 
   /// Whether the search leaves it alone from now on.

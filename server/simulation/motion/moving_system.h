@@ -80,7 +80,7 @@ struct MovingSystem {
   bool implicit = false;
   /// Step to try next [s]; 0: find one.
   double next_step = 0;
-  /// Relative tolerance of steps that are given no other, and of a step.
+  /// Relative tolerance of a step: the finest, or what was given instead.
   double finest;
   double tolerance;
   /// Order of implicit steps.
