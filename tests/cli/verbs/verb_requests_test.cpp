@@ -234,16 +234,17 @@ TEST_F(VerbRequestsTest, WatchPrintsAnObjectForEachEvent) {
 }
 
 TEST_F(VerbRequestsTest, SeriesIsThinnedUnlessItIsRaw) {
+  AddJobs(1);
   const auto some =
-      Asked<v1::GetSeriesRequest>({"series", "a", "--channel", "B1.velocity", "--channel",
+      Asked<v1::GetSeriesRequest>({"series", "0", "--channel", "B1.velocity", "--channel",
                                    "B2.velocity", "--from", "0", "--points", "10"});
-  EXPECT_EQ(some.name(), "jobs/a");
+  EXPECT_EQ(some.name(), "jobs/0");
   EXPECT_THAT(some.channels(), ElementsAre("B1.velocity", "B2.velocity"));
   EXPECT_TRUE(some.has_start_time_s());
   EXPECT_FALSE(some.has_end_time_s());
   EXPECT_EQ(some.max_points(), 10);
   EXPECT_EQ(some.decimation(), v1::GetSeriesRequest::MINMAX);
-  Run({"series", "a", "--raw", "--to", "1e-3"});
+  Run({"series", "0", "--raw", "--to", "1e-3"});
   const v1::GetSeriesRequest raw = server_.Asked<v1::GetSeriesRequest>().back();
   EXPECT_EQ(raw.decimation(), v1::GetSeriesRequest::RAW);
   EXPECT_DOUBLE_EQ(raw.end_time_s(), 1e-3);
