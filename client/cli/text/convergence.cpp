@@ -160,9 +160,16 @@ std::string AboutSearches(const v1::Job& job) {
     return text + Try("update=NEWTON_COUPLED",
                       fmt::format("the paper's process gave {} up; it corrects each alone", stuck));
   }
-  return text +
-         fmt::format("       No better μ was found for {}; more corrections would not help\n",
-                     stuck);
+  text +=
+      fmt::format("       No better μ was found for {}; more corrections would not help\n", stuck);
+  const NumberField& tolerance = NumberOf<v1::Solver>(v1::Solver::kRelativeToleranceFieldNumber);
+  const double finest = tolerance.range.low;
+  const bool adapts = solver.method() != v1::Solver::RK4;
+  if (adapts && ValueOf(v1::Solver::kRelativeToleranceFieldNumber, solver) > finest) {
+    text += Try(fmt::format("relative_tolerance={:.0e}", finest),
+                "a search of finer motions often ends otherwise");
+  }
+  return text;
 }
 
 // What a group without solution can reach: `at most 0.31`; empty if the search does not tell.

@@ -113,8 +113,16 @@ TEST(ConvergenceHints, CorrectionsAreThoseOfTheEpisode) {
 }
 
 TEST(ConvergenceHints, SearchThatEndedEarlyIsNotSentOn) {
-  const std::string hints = ConvergenceHints(Partial(Cycle(1, 12, 0.01) + Cycle(2, 12, 0.9)));
-  EXPECT_EQ(hints, "       No better μ was found for 2 cycles; more corrections would not help\n");
+  const std::string cycles = Cycle(1, 12, 0.01) + Cycle(2, 12, 0.9);
+  const std::string stuck =
+      "       No better μ was found for 2 cycles; more corrections would not help\n";
+  EXPECT_EQ(ConvergenceHints(Partial(cycles)),
+            stuck +
+                "Try:   --set solver.relative_tolerance=1e-13   a search of finer motions often "
+                "ends otherwise\n");
+  for (const std::string solver : {"relative_tolerance: 1e-13", "method: RK4"}) {
+    EXPECT_EQ(ConvergenceHints(Partial("scenario { solver { " + solver + " } } " + cycles)), stuck);
+  }
 }
 
 TEST(ConvergenceHints, ToleranceIsForSmallMissesAndLargeEnough) {
