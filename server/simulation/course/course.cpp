@@ -24,7 +24,7 @@ Course::Stretch Course::Episode(const State& start, int number, std::int64_t ste
     const Motion::Pause solved =
         solver_.Solve(start, number, scenario_.end_time, stop_, step_limit);
     if (solved != Motion::Pause::kQuiet) return {.pause = solved};
-    recording.Hold();
+    if (solver_.MayBeRejected()) recording.Hold();
     const Motion::Pause pause = Record(start, solver_.record_until(), step_limit, recording);
     if (solver_.Accepts(pause)) {
       recording.Release();

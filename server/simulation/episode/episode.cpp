@@ -11,8 +11,8 @@ namespace {
 // A stretch that the paper's process takes as one episode has at most so many cycles.
 constexpr int kPaperCycles = 120;
 // The tolerance to which an episode is solved once its recording has denied what was found with the
-// scenario's: of weak cycles beside much larger motions round-off is left. The least of the
-// contract.
+// scenario's: weak cycles beside much larger motions have lost their digits. The least of the
+// contract. Of 3,100 machines 7 more are FULL (Machines.AreSolvedFinely…).
 constexpr double kFinestTolerance = 1e-13;
 
 }  // namespace
@@ -116,10 +116,11 @@ void EpisodeSolver::Accept(const Sight& sight, double until) {
   log_.Accept(sight);
 }
 
-// A tolerance that is coarser than the default is what the user wants to see.
+// Steps of fixed length know no tolerance, and one that is coarser than the default is what the
+// user wants to see.
 bool EpisodeSolver::MayBeFiner() const {
   const SolverOptions& options = scenario_.solver;
-  return !finely_ && options.relative_tolerance > kFinestTolerance &&
+  return !finely_ && options.fixed_step == 0 && options.relative_tolerance > kFinestTolerance &&
          options.relative_tolerance <= SolverOptions{}.relative_tolerance &&
          options.update == UpdateRule::kNewtonCoupled;
 }

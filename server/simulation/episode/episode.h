@@ -33,6 +33,8 @@ class EpisodeSolver {
   double record_until() const { return record_until_; }
   /// Whether what is recorded has yet to show that the episode is solved.
   bool tentative() const { return tentative_; }
+  /// Whether what is recorded may have to be recorded anew, as Accepts says.
+  bool MayBeRejected() const { return tentative_ || MayBeFiner(); }
   /// Looks at the recording, which has ended for this reason. False: the episode is to be solved
   /// again, and recorded anew; with the finest tolerance, if the recording denies a group that was
   /// not tentative.
