@@ -120,9 +120,10 @@ TEST(ConvergenceHints, SearchThatEndedEarlyIsNotSentOn) {
             stuck +
                 "Try:   --set solver.relative_tolerance=1e-13   a search of finer motions often "
                 "ends otherwise\n");
-  for (const std::string solver : {"relative_tolerance: 1e-13", "method: RK4"}) {
-    EXPECT_EQ(ConvergenceHints(Partial("scenario { solver { " + solver + " } } " + cycles)), stuck);
-  }
+  const std::string finest = "scenario { solver { relative_tolerance: 1e-13 } } ";
+  const std::string fixed = "scenario { solver { method: RK4 } } ";
+  EXPECT_EQ(ConvergenceHints(Partial(finest + cycles)), stuck);
+  EXPECT_EQ(ConvergenceHints(Partial(fixed + cycles)), stuck);
 }
 
 TEST(ConvergenceHints, ToleranceIsForSmallMissesAndLargeEnough) {
