@@ -363,7 +363,7 @@ bool Stepper::Land(const StepEvents::Found& found) {
   const bool shifts = shifts_ && !system_.implicit && found.support == kNone;
   const double nearby =
       shifts ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
-  const double event = system_.step.Offset(found.event.theta);
+  const double event = system_.step.Offset(found.event.theta), end = system_.time + event;
   if (found.support == kNone && separating_ == found.contact && system_.step.h - event <= nearby) {
     if (found.event.theta < 1) Shift(event - system_.step.h, false);
   } else if (found.event.theta < 1) {
@@ -379,8 +379,9 @@ bool Stepper::Land(const StepEvents::Found& found) {
       Compute(left, planned.warp == 2);
       return false;
     }
-    // So near that the tangent leads there: its error is of second order.
-    const bool there = std::abs(correction) <= 1e-7 * system_.step.h;
+    // So near that the tangent leads there: its error is of second order. Where the step before it
+    // has ended next to the event, round-off of time is nearer than any part of the step.
+    const bool there = std::abs(correction) <= std::max(1e-7 * system_.step.h, kRoundOff * end);
     if (there || std::abs(correction) <= nearby) {
       Shift(correction, there);
       if (!there) continue;
