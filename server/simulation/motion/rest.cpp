@@ -13,8 +13,9 @@
 namespace contact {
 namespace {
 
-// A contact rests no more when its work is this many times what lets it settle, or when this part
-// of its force is gone: with the μ of its last bounce a floor holds what leaves it like glue.
+// A contact rests no more when its work, or the energy of its motion, is this many times what lets
+// it settle, or when this part of its force is gone: with the μ of its last bounce a floor holds
+// what leaves it like glue.
 constexpr double kWakeFactor = 4, kGone = 0.5;
 // Part of that work up to which what comes may be its cause.
 constexpr double kNegligible = 1.0 / 16;
@@ -37,6 +38,15 @@ double Disturbance(const MovingSystem& system, int contact, double deformation) 
   const double work = force * std::abs(deformation - state.cycle.start_deformation);
   const double limit = WakingWork(system, state);
   return limit > 0 ? work / limit : 0;
+}
+
+// The energy with which a contact moves, in the same units.
+double MotionEnergy(const MovingSystem& system, int contact) {
+  const double rate =
+      system.equations.Relative(contact, system.rk.y0.data() + system.equations.bodies());
+  const double energy = 0.5 * system.equations.effective_mass(contact) * rate * rate;
+  const double limit = WakingWork(system, system.contacts[At(contact)]);
+  return limit > 0 ? energy / limit : 0;
 }
 
 }  // namespace
@@ -85,7 +95,8 @@ bool Rest::Ends(int contact, bool at_breakpoint, CycleHost& host) {
   ContactState& state = system_.contacts[At(contact)];
   if (system_.time >= state.rest_until) return true;
   const double deformation = system_.Deformation(contact, system_.rk.y0.data());
-  const double disturbance = Disturbance(system_, contact, deformation);
+  const double moves = MotionEnergy(system_, contact);
+  const double disturbance = std::max(Disturbance(system_, contact, deformation), moves);
   if (at_breakpoint && disturbance <= kNegligible) state.rest_mark = system_.time;
   return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark) : IsLeft(contact, deformation);
 }
