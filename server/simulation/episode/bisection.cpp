@@ -33,15 +33,15 @@ constexpr int kDepth = 3;
 // After so many μ with which the group does not end there is none with which it does: 9 times more.
 constexpr int kMostOpen = 10;
 constexpr int kHalvings = 60;
-// A bracket so narrow, relative, in which ε² still differs so much holds a jump,
-constexpr double kNarrow = 1e-6, kApart = 3e-3;
-// one whose other side does not end holds none if it is so narrow, and if what is left would have
+// A bracket holds a jump if it is so narrow, relative, in units of what a root may miss by: ε²
+// would have to change a thousand times as fast as μ. At 1e-11 always two of 100 presses take 1.4
+// times the steps. NoRoot.*.
+constexpr double kNarrow = 1e-3;
+// One whose other side does not end holds none if it is so narrow, and if what is left would have
 // to fall so many times as fast as it did,
 constexpr double kCreeps = 0.05, kSteeper = 4;
-// one so narrow parts troughs that are so far apart, in durations of the group,
+// and one so narrow parts troughs that are so far apart, in durations of the group.
 constexpr double kBlurredRoot = 1e-3, kElsewhere = 0.05;
-// and one so narrow has no root whatever is in it.
-constexpr double kNarrowest = 1e-11;
 // How much longer than before a trial may last, in durations of the group.
 constexpr double kLongerPass = 10;
 
@@ -120,7 +120,7 @@ bool Bisection::Scan(const GroupSight& group) {
   return false;
 }
 
-bool Bisection::ScanBelow(const GroupSight& group, const Sight& sight) {
+bool Bisection::ScanBelow(const GroupSight& group) {
   group_ = group;
   near_ = kRoot;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
@@ -128,10 +128,6 @@ bool Bisection::ScanBelow(const GroupSight& group, const Sight& sight) {
   sharply_ = false;
   below_ = kBelow * group.mu;
   const Groups kept = problem_.groups;
-  // What only earlier passes have seen after the group is guessed anew.
-  std::erase_if(problem_.groups.known(), [&](const auto& known) {
-    return known.second.start_time > group.start_time && sight.Find(known.first) == nullptr;
-  });
   Point last = At(0);
   bool found = false, goes_on = !Falls(last);
   for (double part = kLeastPart; goes_on; part *= kCoarse) {
@@ -222,8 +218,7 @@ bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
   if (width <= kBlurredRoot * mu && !sharply_ && PartsTroughs()) return true;
-  const bool apart = more_.excess > kApart && less_.excess < -kApart;
-  return width <= (apart ? kNarrow : kNarrowest) * mu;
+  return width <= kNarrow * near_ * mu;
 }
 
 // Whether the group ends at different troughs on the two sides, so that what is between is a jump.

@@ -26,9 +26,9 @@ class Bisection {
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
-  /// Whether a group that its μ solves, as this pass has seen it, has a smaller root. Sets its μ to
-  /// the smallest; where there is none, nothing changes.
-  bool ScanBelow(const GroupSight& group, const Sight& sight);
+  /// Whether a group that its μ solves has a smaller root. Sets its μ to the smallest; where there
+  /// is none, nothing changes.
+  bool ScanBelow(const GroupSight& group);
 
  private:
   struct Point {

@@ -208,7 +208,7 @@ bool Growing::HasLess(const GroupSight& group, const Sight& scan) {
   if (!IsNew(group, scan, &scanned_below_)) return false;
   Unknown& unknown = problem_.groups.At(group.id);
   const double root = unknown.mu;
-  if (!bisection_.ScanBelow(group, scan)) return false;
+  if (!bisection_.ScanBelow(group)) return false;
   unknown.other_roots.push_back(root);
   return true;
 }

@@ -91,7 +91,7 @@ March::End March::Solve(bool rejected) {
         if (Reopens(sight, miss)) continue;
         return Recorded(sight, miss);
       }
-    } else if (IsDue(sight, miss)) {
+    } else if (miss == nullptr) {  // All is solved ahead.
       if (const auto end = Polish(sight, miss)) return *end;
       continue;
     }
@@ -124,15 +124,6 @@ March::End March::Recorded(const Sight& sight, const GroupSight* miss) const {
   if (final >= problem_.end()) return {.until = problem_.end(), .sight = sight};
   const double length = (final > start ? final : sight.time) - start;
   return {.until = start + (1 - kAtOnce) * length, .sight = sight};
-}
-
-// Whether what the march has solved ahead is to be polished now: nothing misses, or much of it is
-// final and what misses has nothing to do with it.
-bool March::IsDue(const Sight& sight, const GroupSight* miss) const {
-  if (miss == nullptr) return true;
-  const Timeline timeline = Read(sight);
-  if (timeline.Block(*miss, 0, kSearch.block).size() > 1) return false;
-  return IsEnough(sight, miss);
 }
 
 // Whether what is polished is all up to the first instant at which no cycle runs.

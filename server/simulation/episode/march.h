@@ -48,7 +48,6 @@ class March {
   bool Reopens(const Sight& sight, const GroupSight* miss);
   End Recorded(const Sight& sight, const GroupSight* miss) const;
   std::optional<End> Polish(const Sight& sight, const GroupSight* miss);
-  bool IsDue(const Sight& sight, const GroupSight* miss) const;
   static bool SeesAll(const Sight& sight);
   bool MayBeAll(const Sight& sight, const GroupSight* miss) const;
   void Advance(const Sight& sight, const GroupSight& miss);
