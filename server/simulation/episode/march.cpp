@@ -92,7 +92,7 @@ March::End March::Solve(bool rejected) {
         return Recorded(sight, miss);
       }
     } else if (miss == nullptr) {  // All is solved ahead.
-      if (const auto end = Polish(sight, miss)) return *end;
+      if (const auto end = Polish(sight)) return *end;
       continue;
     }
     if (miss != nullptr) Advance(sight, *miss);
@@ -127,8 +127,8 @@ March::End March::Recorded(const Sight& sight, const GroupSight* miss) const {
 }
 
 // Whether what is polished is all up to the first instant at which no cycle runs.
-bool March::MayBeAll(const Sight& sight, const GroupSight* miss) const {
-  return miss == nullptr && !rejected_ && sight.pause == Motion::Pause::kQuiet && SeesAll(sight);
+bool March::MayBeAll(const Sight& sight) const {
+  return !rejected_ && sight.pause == Motion::Pause::kQuiet && SeesAll(sight);
 }
 
 // Whether every group has ended for good.
@@ -138,10 +138,10 @@ bool March::SeesAll(const Sight& sight) {
 }
 
 // Solves all that was solved ahead to the scenario's tolerance.
-std::optional<March::End> March::Polish(const Sight& sight, const GroupSight* miss) {
+std::optional<March::End> March::Polish(const Sight& sight) {
   const Timeline timeline = Read(sight);
   const Ids open = timeline.Solved(problem_.tolerance(), ahead_);
-  const bool all = MayBeAll(sight, miss);
+  const bool all = MayBeAll(sight);
   const auto worst = [&] {
     double most = 0;
     for (const GroupId& id : open) most = std::max(most, std::abs(sight.Find(id)->Miss()));

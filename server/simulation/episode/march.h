@@ -47,9 +47,9 @@ class March {
   bool IsEnough(const Sight& sight, const GroupSight* miss) const;
   bool Reopens(const Sight& sight, const GroupSight* miss);
   End Recorded(const Sight& sight, const GroupSight* miss) const;
-  std::optional<End> Polish(const Sight& sight, const GroupSight* miss);
+  std::optional<End> Polish(const Sight& sight);
   static bool SeesAll(const Sight& sight);
-  bool MayBeAll(const Sight& sight, const GroupSight* miss) const;
+  bool MayBeAll(const Sight& sight) const;
   void Advance(const Sight& sight, const GroupSight& miss);
   Hybrid::End SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
                          double unseen = 0, const GroupSight* shown = nullptr);
