@@ -101,7 +101,7 @@ TEST(Machines, AreRightWhereStepsEndAtEvents) {
 }
 
 // A contact separates where δ is 0, also where the step before has ended next to that (settling
-// 10: 2e-15 s before it). Found 8 µs too late, that is denied: a certificate has 1e-3 of δ_m.
+// 10: 2e-15 s before it). It was found 8 µs too late, with 1e-3 of δ_m.
 TEST(Machines, SeparateAtOnceWhereAStepEndsBeside) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";
   const Scenario s = Rolled("settling", 10);
