@@ -13,9 +13,9 @@
 namespace contact {
 namespace {
 
-// A contact rests no more when its work, or the energy of its motion, is this many times what lets
-// it settle, or when this part of its force is gone: with the μ of its last bounce a floor holds
-// what leaves it like glue.
+// A contact rests no more when the work of its spring or the energy of its motion is this many
+// times what lets it settle, or when this part of its force is gone: with the μ of its last bounce
+// a floor holds what leaves it like glue. Machines.RestNoMoreWhereTheyMove.
 constexpr double kWakeFactor = 4, kGone = 0.5;
 // Part of that work up to which what comes may be its cause.
 constexpr double kNegligible = 1.0 / 16;
@@ -31,28 +31,30 @@ double WakingWork(const MovingSystem& system, const ContactState& state) {
   return kWakeFactor * system.scenario.solver.settled_nirv_fraction * state.largest_work;
 }
 
-// The work of a contact since its cycle began, at this deformation, in units of what ends a rest.
-double Disturbance(const MovingSystem& system, int contact, double deformation) {
-  const ContactState& state = system.contacts[At(contact)];
-  const double force = Stress(system, contact, deformation).value;
-  const double work = force * std::abs(deformation - state.cycle.start_deformation);
-  const double limit = WakingWork(system, state);
-  return limit > 0 ? work / limit : 0;
+// An energy in units of the work that ends the rest of a contact.
+double PartOfWaking(const MovingSystem& system, int contact, double energy) {
+  const double limit = WakingWork(system, system.contacts[At(contact)]);
+  return limit > 0 ? energy / limit : 0;
 }
 
-// The energy with which a contact moves, in the same units.
+// What the spring of a contact has worked since its cycle began, at most, at this deformation [J].
+double SpringWork(const MovingSystem& system, int contact, double deformation) {
+  const double moved = deformation - system.contacts[At(contact)].cycle.start_deformation;
+  return Stress(system, contact, deformation).value * std::abs(moved);
+}
+
+// With what energy the two bodies of a contact move against each other [J].
 double MotionEnergy(const MovingSystem& system, int contact) {
   const double rate =
       system.equations.Relative(contact, system.rk.y0.data() + system.equations.bodies());
-  const double energy = 0.5 * system.equations.effective_mass(contact) * rate * rate;
-  const double limit = WakingWork(system, system.contacts[At(contact)]);
-  return limit > 0 ? energy / limit : 0;
+  return 0.5 * system.equations.effective_mass(contact) * rate * rate;
 }
 
 }  // namespace
 
 bool HardlyWorks(const MovingSystem& system, int contact, double deformation) {
-  return Disturbance(system, contact, deformation) <= kNegligible;
+  const double work = SpringWork(system, contact, deformation);
+  return PartOfWaking(system, contact, work) <= kNegligible;
 }
 
 void Rest::Begin(ContactState& state, CycleHost& host) {
@@ -95,8 +97,9 @@ bool Rest::Ends(int contact, bool at_breakpoint, CycleHost& host) {
   ContactState& state = system_.contacts[At(contact)];
   if (system_.time >= state.rest_until) return true;
   const double deformation = system_.Deformation(contact, system_.rk.y0.data());
-  const double moves = MotionEnergy(system_, contact);
-  const double disturbance = std::max(Disturbance(system_, contact, deformation), moves);
+  const double most =
+      std::max(SpringWork(system_, contact, deformation), MotionEnergy(system_, contact));
+  const double disturbance = PartOfWaking(system_, contact, most);
   if (at_breakpoint && disturbance <= kNegligible) state.rest_mark = system_.time;
   return disturbance > 1 ? host.OnDisturbed(state, state.rest_mark) : IsLeft(contact, deformation);
 }

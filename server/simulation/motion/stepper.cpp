@@ -363,7 +363,7 @@ bool Stepper::Land(const StepEvents::Found& found) {
   const bool shifts = shifts_ && !system_.implicit && found.support == kNone;
   const double nearby =
       shifts ? kTrapezoid * std::cbrt(system_.tolerance) * (system_.time - system_.touch_time) : 0;
-  const double event = system_.step.Offset(found.event.theta), end = system_.time + event;
+  const double event = system_.step.Offset(found.event.theta);
   if (found.support == kNone && separating_ == found.contact && system_.step.h - event <= nearby) {
     if (found.event.theta < 1) Shift(event - system_.step.h, false);
   } else if (found.event.theta < 1) {
@@ -379,9 +379,12 @@ bool Stepper::Land(const StepEvents::Found& found) {
       Compute(left, planned.warp == 2);
       return false;
     }
-    // So near that the tangent leads there: its error is of second order. Where the step before it
-    // has ended next to the event, round-off of time is nearer than any part of the step.
-    const bool there = std::abs(correction) <= std::max(1e-7 * system_.step.h, kRoundOff * end);
+    // So near that the tangent leads there: its error is of second order. What is within round-off
+    // of time is there, too: where the step before has ended next to the event, this one is so
+    // short that round-off of δ is more than 1e-7 of it.
+    // Machines.SeparateAtOnceWhereAStepEndsBeside.
+    const double near = std::max(1e-7 * system_.step.h, kRoundOff * system_.time);
+    const bool there = std::abs(correction) <= near;
     if (there || std::abs(correction) <= nearby) {
       Shift(correction, there);
       if (!there) continue;

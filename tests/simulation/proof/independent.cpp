@@ -195,11 +195,8 @@ class Independent {
     if (before == rests_.end() || before->second->number + 1 != c.number) return rate * rate;
     double largest = 0;
     for (const Cycle& other : run_.cycles) {
-      if (other.contact != c.contact || other.number >= c.number) continue;
-      largest = std::max(largest, other.work_compression);
-      if (StartsPressed(other)) {  // What has pressed it stored so much.
-        const double n = Of(c).exponent, force = std::pow(other.start_deformation, n);
-        largest = std::max(largest, Of(c).stiffness * force * other.start_deformation / (n + 1));
+      if (other.contact == c.contact && other.number < c.number) {
+        largest = std::max(largest, other.work_compression);
       }
     }
     // A rest ends when it is disturbed by four times what settles (rest.cpp).
