@@ -161,6 +161,7 @@ class Independent {
     Works& works = works_[{c.contact, c.group}];
     works.restitution += motion_.Work(c.contact) - compression_[c.contact];
     ++works.cycles;
+    ended_[c.contact] = {c.end_time, scale.speed};
     motion_.Disengage(c.contact);
     const auto group = groups_.find({c.contact, c.group});
     if (group != groups_.end() && works.cycles == group->second->cycles) {
@@ -180,8 +181,9 @@ class Independent {
     if (Counts(c) && c.kind == Cycle::Kind::kCollision) {
       Miss(&Disagreement::approach, std::abs(rate - c.approach_velocity) / scale.speed, c, "δ̇⁻");
     } else if (Counts(c) && !StartsPressed(c) && HasTurned(c)) {
-      Miss(&Disagreement::rest, StartEnergy(c, rate) / (scale.speed * scale.speed), c,
-           "motion at the start");
+      const Ended& before = ended_[c.contact];
+      const double speed = std::max(scale.speed, before.at == c.start_time ? before.speed : 0.0);
+      Miss(&Disagreement::rest, StartEnergy(c, rate) / (speed * speed), c, "motion at the start");
     }
     Law(c, rate);
     if (c.status == Status::kSettled) rests_[c.contact] = &c;
@@ -264,7 +266,13 @@ class Independent {
   PlainMotion motion_;
   std::vector<Mark> marks_;
   std::map<int, double> depths_, compression_;  // Of contacts: δ_m of all; W_c of the cycle.
-  std::map<int, const Cycle*> rests_;           // The last row of a contact that is SETTLED.
+  // The instant at which the last cycle of a contact ended, and the largest speed of its swing.
+  // What begins there has its start from there, as exactly as that swing is known.
+  struct Ended {
+    double at = -1, speed = 0;
+  };
+  std::map<int, Ended> ended_;
+  std::map<int, const Cycle*> rests_;  // The last row of a contact that is SETTLED.
   double deepest_ = 0;
   std::map<std::pair<int, int>, Works> works_;  // Of the group of a contact.
   std::map<std::pair<int, int>, const Group*> groups_;
