@@ -1,4 +1,4 @@
-#include "simulation/methods/hybrid.h"
+#include "simulation/methods/newton.h"
 
 #include <gmock/gmock.h>
 
@@ -48,9 +48,9 @@ class Given : public Residuals {
   Function function_;
 };
 
-Hybrid::End Solve(Given& equations, VectorXd& x, const HybridOptions& options = {}) {
-  Hybrid hybrid(equations);
-  return hybrid.Solve(options, equations.At(x, true), &x);
+Newton::End Solve(Given& equations, VectorXd& x, const NewtonOptions& options = {}) {
+  Newton newton(equations);
+  return newton.Solve(options, equations.At(x, true), &x);
 }
 
 Given Rosenbrock() {
@@ -74,82 +74,72 @@ Given Brown() {
   });
 }
 
-TEST(Hybrid, SolvesRosenbrocksValley) {
+TEST(Newton, SolvesRosenbrocksValley) {
   Given equations = Rosenbrock();
   VectorXd x{{-1.2, 1}};
-  EXPECT_EQ(Solve(equations, x), Hybrid::End::kSolved);
+  EXPECT_EQ(Solve(equations, x), Newton::End::kSolved);
   EXPECT_NEAR(x[0], 1, 1e-9);
   EXPECT_NEAR(x[1], 1, 1e-9);
 }
 
-TEST(Hybrid, SolvesPowellsEquationsThoughTheirSlopesAreSingularAtTheRoot) {
+TEST(Newton, SolvesPowellsEquationsThoughTheirSlopesAreSingularAtTheRoot) {
   Given equations = Powell();
   VectorXd x{{3, -1, 0, 1}};
-  EXPECT_EQ(Solve(equations, x), Hybrid::End::kSolved);
+  EXPECT_EQ(Solve(equations, x), Newton::End::kSolved);
   EXPECT_LT(x.norm(), 1e-4);
 }
 
-TEST(Hybrid, SolvesBrownsAlmostLinearEquations) {
+TEST(Newton, SolvesBrownsAlmostLinearEquations) {
   Given equations = Brown();
   VectorXd x = VectorXd::Constant(10, 0.5);
-  EXPECT_EQ(Solve(equations, x), Hybrid::End::kSolved);
+  EXPECT_EQ(Solve(equations, x), Newton::End::kSolved);
   EXPECT_NEAR(x.head(9).prod() * x[9], 1, 1e-9);
 }
 
-TEST(Hybrid, NearARootBroydensUpdateTakesThePlaceOfSlopes) {
-  Given equations = Brown(), true_slopes = Brown();
-  VectorXd x = VectorXd::Constant(10, 0.95), y = x;
-  EXPECT_EQ(Solve(equations, x, {.near = 10}), Hybrid::End::kSolved);
-  EXPECT_EQ(Solve(true_slopes, y), Hybrid::End::kSolved);
-  EXPECT_EQ(equations.with_slopes, 1);
-  EXPECT_GT(true_slopes.with_slopes, 3);
-  EXPECT_NEAR(x.prod(), 1, 1e-9);
-}
-
-TEST(Hybrid, SlopesAreAskedForOnlyOfStepsThatHelpWhereTheyAreDear) {
+TEST(Newton, SlopesAreAskedForOnlyOfStepsThatHelpWhereTheyAreDear) {
   Given equations = Rosenbrock();
   VectorXd x{{-1.2, 1}};
-  EXPECT_EQ(Solve(equations, x, {.slopes_at_once = false}), Hybrid::End::kSolved);
+  EXPECT_EQ(Solve(equations, x, {.slopes_at_once = false}), Newton::End::kSolved);
   EXPECT_EQ(equations.with_slopes, static_cast<int>(equations.parts.size()));
   EXPECT_GT(equations.evaluations, equations.with_slopes);
 }
 
-TEST(Hybrid, StallsWhereThereIsNoRootAndStaysWhereItIsBest) {
+TEST(Newton, StallsWhereThereIsNoRootAndStaysWhereItIsBest) {
   Given equations([](const VectorXd& x) { return VectorXd{{1 + x[0] * x[0]}}; });
   VectorXd x{{0.5}};
-  EXPECT_EQ(Solve(equations, x), Hybrid::End::kStalled);
+  EXPECT_EQ(Solve(equations, x), Newton::End::kStalled);
   EXPECT_LT(std::abs(x[0]), 0.5);
 }
 
-TEST(Hybrid, StallsAtAJumpInAFewSteps) {
+TEST(Newton, StallsAtAJumpInAFewSteps) {
   Given equations([](const VectorXd& x) { return VectorXd{{x[0] + (x[0] > 0 ? 1.0 : -1.0)}}; });
   VectorXd x{{3}};
-  EXPECT_EQ(Solve(equations, x, {.creep = 0.2}), Hybrid::End::kStalled);
+  EXPECT_EQ(Solve(equations, x, {.most_trials = 3}), Newton::End::kStalled);
   EXPECT_LT(equations.evaluations, 20);
 }
 
-TEST(Hybrid, StallsWhereTangentsLeadTwiceBeyondWhatAStepCanMove) {
+TEST(Newton, StallsWhereTangentsLeadTwiceBeyondWhatAStepCanMove) {
   Given equations([](const VectorXd& x) { return VectorXd{{2 + std::exp(x[0] / 10)}}; });
   VectorXd x{{0}};
-  EXPECT_EQ(Solve(equations, x, {.limited = true}), Hybrid::End::kStalled);
+  EXPECT_EQ(Solve(equations, x, {.limited = true}), Newton::End::kStalled);
   EXPECT_LE(equations.parts.size(), 1U);
 }
 
-TEST(Hybrid, TakesALastStepUnseenWhereItIsSureToDo) {
+TEST(Newton, TakesALastStepUnseenWhereItIsSureToDo) {
   Given equations = Brown();
   VectorXd x = VectorXd::Constant(10, 1 - 1e-5);
-  EXPECT_EQ(Solve(equations, x, {.blind = 1e-4}), Hybrid::End::kUnseen);
+  EXPECT_EQ(Solve(equations, x, {.blind = 1e-4}), Newton::End::kUnseen);
   EXPECT_EQ(equations.evaluations, 1);
   EXPECT_NEAR(x.prod(), 1, 1e-6);
 }
 
-TEST(Hybrid, ObeysItsLimitsAndAnAbort) {
+TEST(Newton, ObeysItsLimitsAndAnAbort) {
   Given limited = Rosenbrock(), aborted = Rosenbrock();
   VectorXd x{{-1.2, 1}}, y = x;
-  EXPECT_EQ(Solve(limited, x, {.most_steps = 2}), Hybrid::End::kLimit);
+  EXPECT_EQ(Solve(limited, x, {.most_steps = 2}), Newton::End::kLimit);
   EXPECT_EQ(limited.parts.size(), 2U);
   aborted.most_evaluations = 3;
-  EXPECT_EQ(Solve(aborted, y), Hybrid::End::kAborted);
+  EXPECT_EQ(Solve(aborted, y), Newton::End::kAborted);
 }
 
 }  // namespace

@@ -180,8 +180,8 @@ template <class Archive>
 void serialize(Archive& archive, Unknown& u) {
   archive(u.id, u.mu, u.first_mu, u.lasts, u.start_time, u.restitution_out);
   archive(u.length, u.speed, u.corrected, u.kept, u.guesses, u.weak, u.reopened, u.flips, u.cut,
-          u.given_up, u.lowered, u.iterations);
-  archive(u.growth, u.missing, u.status, u.too_much, u.too_little, u.tried, u.other_roots);
+          u.given_up, u.iterations);
+  archive(u.growth, u.status, u.too_much, u.too_little, u.tried, u.other_roots);
 }
 
 template <class Archive>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/episode/search_options.h"
 #include "simulation/laws/isolated_collision.h"
 
 namespace contact {
@@ -10,38 +11,35 @@ namespace {
 
 // A root is as near as Newton needs it to go on, and as a coarse pass can tell.
 constexpr double kRoot = 1e-4;
-// Relative error of the passes that look, with brackets wider than this part of μ: a pass moves a
-// jump by some times its error. Those that decide are as exact as the scenario asks.
-constexpr double kCoarseTolerance = 1e-6, kWide = 1e-3;
+// In brackets wider than this part of μ passes look as coarsely as the march: a pass moves a jump
+// by some times its error. Those that decide are as exact as the scenario asks. In narrower ones
+// ends that differ by more than this part of the group's duration are those of two troughs.
+constexpr double kWide = 1e-3;
 // Where the group was nearer than this its root is looked for nearby, so much further off than an
 // isolated collision has it, as a power.
 constexpr double kClose = 0.5, kBeyondRoot = 1.5;
 constexpr double kGrow = 4;  // Factor between two μ in search of a bracket.
-constexpr int kMostGrows = 12;
-// A scan begins at this part of the first guess, goes on by this factor, so often at most.
+// Of a scan, of a search of a bracket, and of the search in one: a guard.
+constexpr int kMostPasses = 120;
+// A scan begins at this part of the first guess, or of the root, and goes on by this factor.
 constexpr double kLowest = 1e-3, kFine = 1.25;
-constexpr int kMostScanned = 120;
-// A scan below a root goes by this factor, from and to these parts of the root: eight passes. A
-// larger factor misses narrow troughs, a smaller one costs more. SmallestRoot.IsTheAnswer.
-constexpr double kCoarse = 3, kLeastPart = 1e-3, kBelow = 0.9;
-// A group that lasts at μ = 0 between these parts of what it lasts at its root ends alike, and is
-// not scanned. Of 3,845 groups of random scenarios that begin at rest or compressed 84 have a
-// smaller root, 77 of which last less or more; so do 20 % of the others.
-constexpr double kShortest = 0.6, kLongest = 1.5;
-// How often an interval of a scan is divided where a tangent leads to a root in it.
-constexpr int kDepth = 3;
+// A scan below a root goes by this factor, up to this part of the root: eight passes. A larger
+// factor misses narrow troughs, a smaller one costs more. SmallestRoot.IsTheAnswer.
+constexpr double kCoarse = 3, kBelow = 0.9;
+// A group that lasts at μ = 0 as long as at its root to within this factor ends alike, and is not
+// scanned. Of 3,845 groups of random scenarios that begin at rest or compressed 84 have a smaller
+// root, 77 of which last less than 0.6 times or more than 1.5 times as long; so do 20 % of the
+// others.
+constexpr double kAsLong = 1.5;
 // After so many μ with which the group does not end there is none with which it does: 9 times more.
 constexpr int kMostOpen = 10;
-constexpr int kHalvings = 60;
 // A bracket holds a jump if it is so narrow, relative, in units of what a root may miss by: ε²
 // would have to change a thousand times as fast as μ. At 1e-11 always two of 100 presses take 1.4
 // times the steps. NoRoot.*.
 constexpr double kNarrow = 1e-3;
 // One whose other side does not end holds none if it is so narrow, and if what is left would have
-// to fall so many times as fast as it did,
+// to fall so many times as fast as it did.
 constexpr double kCreeps = 0.05, kSteeper = 4;
-// and one so narrow parts troughs that are so far apart, in durations of the group.
-constexpr double kBlurredRoot = 1e-3, kElsewhere = 0.05;
 // How much longer than before a trial may last, in durations of the group.
 constexpr double kLongerPass = 10;
 
@@ -84,7 +82,7 @@ Root Bisection::Solve(const GroupSight& group, bool sharply, double near) {
   near_ = std::min(near, kRoot);
   sharply_ = sharply;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
-  error_ = kCoarseTolerance;
+  error_ = kSearch.ahead_tolerance;
   const Root root = Exactly(Look());
   return root == Root::kFound || root == Root::kAborted ? root : Finish(root);
 }
@@ -102,18 +100,18 @@ bool Bisection::Scan(const GroupSight& group) {
   group_ = group;
   near_ = kRoot;
   until_ = kForever;
-  error_ = kCoarseTolerance;
+  error_ = kSearch.ahead_tolerance;
   sharply_ = true;
   below_ = kForever;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
   double mu = kLowest * (kept.first_mu > 0 ? kept.first_mu : group.mu);
   int open = 0;
-  for (int i = 0; i < kMostScanned && open < kMostOpen && !problem_.Aborted(); ++i, mu *= kFine) {
+  for (int i = 0; i < kMostPasses && open < kMostOpen && !problem_.Aborted(); ++i, mu *= kFine) {
     const Point point = At(mu, true);
     open = point.ended ? 0 : open + 1;
     if (!point.there || (point.ended && mu >= point.most)) break;
-    if (HasRoot(last, point, kDepth)) return true;
+    if (HasRoot(last, point)) return true;
     last = point;
   }
   problem_.groups.At(group.id) = kept;
@@ -124,16 +122,16 @@ bool Bisection::ScanBelow(const GroupSight& group) {
   group_ = group;
   near_ = kRoot;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
-  error_ = kCoarseTolerance;
+  error_ = kSearch.ahead_tolerance;
   sharply_ = false;
   below_ = kBelow * group.mu;
   const Groups kept = problem_.groups;
   Point last = At(0);
   bool found = false, goes_on = !Falls(last);
-  for (double part = kLeastPart; goes_on; part *= kCoarse) {
+  for (double part = kLowest; goes_on; part *= kCoarse) {
     const Point point = At(std::min(part, kBelow) * group.mu, true);
     goes_on = part < kBelow && !problem_.Aborted();
-    found = !IsRoot(point) && HasRoot(last, point, kDepth);
+    found = !IsRoot(point) && HasRoot(last, point);
     goes_on &= !found;
     last = point;
   }
@@ -145,26 +143,29 @@ bool Bisection::ScanBelow(const GroupSight& group) {
 // trough or separation, for it lasts about as long.
 bool Bisection::Falls(const Point& undamped) const {
   const double lasts = (undamped.end - group_.start_time) / (group_.end_time - group_.start_time);
-  return undamped.excess > 0 && lasts > kShortest && lasts < kLongest;
+  return undamped.excess > 0 && lasts * kAsLong > 1 && lasts < kAsLong;
 }
 
 // Whether there is a root between two points of a scan. Where both are on the same side there may
-// be two, or one and a jump, if one of the tangents leads to the other side before the other point.
-bool Bisection::HasRoot(const Point& from, const Point& to, int depth) {
-  if ((from.excess > 0) != (to.excess > 0)) {
-    Keep(from), Keep(to);
-    const bool found = Exactly(Narrow()) == Root::kFound;
-    error_ = kCoarseTolerance;
-    return found && problem_.groups.At(group_.id).mu < below_;
-  }
-  if (depth == 0 || problem_.Aborted()) return false;
+// be two, or one and a jump, if a tangent at one of them leads to the other side before the other.
+bool Bisection::HasRoot(const Point& from, const Point& to) {
+  if ((from.excess > 0) != (to.excess > 0)) return HasRootIn(from, to);
   for (const Point& end : {from, to}) {
     const double mu = end.mu - end.excess / end.slope;
-    if (!end.ended || !(mu > from.mu && mu < to.mu)) continue;
-    const Point between = At(mu, true);
-    return between.there && (HasRoot(from, between, depth - 1) || HasRoot(between, to, depth - 1));
+    if (!end.ended || !(mu > from.mu && mu < to.mu) || problem_.Aborted()) continue;
+    const Point between = At(mu);
+    const bool crosses = between.there && (between.excess > 0) != (from.excess > 0);
+    return crosses && (HasRootIn(from, between) || HasRootIn(between, to));
   }
   return false;
+}
+
+// Whether there is a root, below what a scan asks for, between two points on different sides.
+bool Bisection::HasRootIn(const Point& from, const Point& to) {
+  Keep(from), Keep(to);
+  const bool found = Exactly(Narrow()) == Root::kFound;
+  error_ = kSearch.ahead_tolerance;
+  return found && problem_.groups.At(group_.id).mu < below_;
 }
 
 Root Bisection::Look() {
@@ -217,14 +218,14 @@ void Bisection::Keep(const Point& point) {
 bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
-  if (width <= kBlurredRoot * mu && !sharply_ && PartsTroughs()) return true;
+  if (width <= kWide * mu && !sharply_ && PartsTroughs()) return true;
   return width <= kNarrow * near_ * mu;
 }
 
 // Whether the group ends at different troughs on the two sides, so that what is between is a jump.
 bool Bisection::PartsTroughs() const {
   const double end = std::max(less_.end, more_.end);
-  return less_.ended && std::abs(less_.end - more_.end) > kElsewhere * (end - group_.start_time);
+  return less_.ended && std::abs(less_.end - more_.end) > kWide * (end - group_.start_time);
 }
 
 // Looks beyond a root that is near, where an isolated collision would have it: A(ε) falls as 1/μ.
@@ -245,23 +246,19 @@ Root Bisection::Bracket() {
     const Point first = less_;
     Keep(At(0));
     double mu = first.mu;
-    for (int i = 0; i < kMostGrows && !first.ended && !more_.there; ++i) Keep(At(mu /= kGrow));
+    for (int i = 0; i < kMostPasses && !first.ended && !more_.there; ++i) Keep(At(mu /= kGrow));
     if (problem_.Aborted()) return Root::kAborted;
     return more_.there ? Root::kFound : Root::kTooLittle;
   }
   const Contact& contact =
       problem_.scenario().contacts[static_cast<std::size_t>(group_.id.contact)];
   double mu = more_.mu > 0 ? more_.mu : 1e-3 * contact.stiffness;
-  for (int i = 0; i < kMostGrows && mu < more_.most && !less_.there; ++i) {
+  for (int i = 0; i < kMostPasses && mu < more_.most && !less_.there; ++i) {
     mu *= kGrow;
     const Point point = At(mu);
     if (problem_.Aborted()) return Root::kAborted;
     if (!point.there) break;
     Keep(point);
-  }
-  if (!less_.there || !less_.ended) {
-    const Point undamped = At(0);
-    if (undamped.ended && undamped.excess < 0) less_ = undamped;
   }
   return less_.there ? Root::kFound : Root::kTooMuch;
 }
@@ -270,10 +267,10 @@ Root Bisection::Bracket() {
 Root Bisection::Narrow() {
   double weight_of_less = 1;
   bool was_more = false;
-  for (int i = 0; i < kHalvings && !HasNone(); ++i) {
+  for (int i = 0; i < kMostPasses && !HasNone(); ++i) {
     const double width = less_.mu - more_.mu;
     const double wide = std::abs(width) / (kWide * std::max(less_.mu, more_.mu));
-    if (error_ > 0) error_ = kCoarseTolerance * std::min(1.0, wide);
+    if (error_ > 0) error_ = kSearch.ahead_tolerance * std::min(1.0, wide);
     const double weight = more_.excess / (more_.excess - weight_of_less * less_.excess);
     const bool far = more_.mu > 0 && less_.mu > 10 * more_.mu;
     const double half = far ? std::sqrt(more_.mu * less_.mu) : more_.mu + 0.5 * width;

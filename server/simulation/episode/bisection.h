@@ -41,7 +41,8 @@ class Bisection {
     bool ended = true;
   };
   Point At(double mu, bool slope = false);
-  bool HasRoot(const Point& from, const Point& to, int depth);
+  bool HasRoot(const Point& from, const Point& to);
+  bool HasRootIn(const Point& from, const Point& to);
   bool Falls(const Point& undamped) const;
   Root Look();
   Root Exactly(Root root);

@@ -8,8 +8,8 @@
 namespace contact {
 namespace {
 
-// Relative change of a μ in one step: further off the slopes tell nothing.
-constexpr double kLeastChange = -0.8, kMostChange = 4;
+// A step changes a μ by this factor at most: further off the slopes tell nothing.
+constexpr double kMostFactor = 5;
 // Residual of a group that does not end with a trial μ: worse than any that does.
 constexpr double kOpenResidual = 10;
 
@@ -56,16 +56,6 @@ Residuals::Value Block::Begin(Sight sight) {
   return value;
 }
 
-Residuals::Value Block::Keep(const std::vector<bool>& which, const Value& value) {
-  std::vector<GroupId> ids;
-  for (std::size_t i = 0; i < ids_.size(); ++i) {
-    if (which[i]) ids.push_back(ids_[i]);
-  }
-  if (ids.empty() || ids.size() == ids_.size()) return value;
-  ids_ = std::move(ids);
-  return Of(last_, true);
-}
-
 Residuals::Value Block::Of(const Sight& sight, bool slopes) const {
   const Eigen::Index n = Index(ids_.size());
   Value value{.residuals = Eigen::VectorXd::Zero(n), .slopes = {}};
@@ -99,7 +89,7 @@ Residuals::Value Block::At(const Eigen::VectorXd& x, bool slopes) {
 }
 
 Eigen::VectorXd Block::Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& step) const {
-  return x.array() * (1 + step.array().max(kLeastChange).min(kMostChange));
+  return x.array() * (1 + step.array()).max(1 / kMostFactor).min(kMostFactor);
 }
 
 void Block::OnStep(double part) {

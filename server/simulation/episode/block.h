@@ -4,7 +4,7 @@
 
 #include "simulation/episode/iteration_log.h"
 #include "simulation/episode/problem.h"
-#include "simulation/methods/hybrid.h"
+#include "simulation/methods/newton.h"
 
 namespace contact {
 
@@ -20,8 +20,6 @@ class Block final : public Residuals {
   Value Begin(Sight sight);
   /// A pass of its own for that, with slopes.
   Value Begin();
-  /// Only these of its groups are moved from now on. Returns what is known of them.
-  Value Keep(const std::vector<bool>& which, const Value& value);
 
   Value At(const Eigen::VectorXd& x, bool slopes) override;
   Eigen::VectorXd Moved(const Eigen::VectorXd& x, const Eigen::VectorXd& step) const override;

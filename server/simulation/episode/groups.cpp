@@ -67,9 +67,8 @@ void Groups::Merge(const GroupSight& first, const GroupSight& next, Growth why) 
   grown.mu = grown.first_mu;
   grown.status = Cycle::Status::kNotConverged;
   grown.growth = why;
-  grown.missing = first.Missing();
   grown.corrected = true;
-  grown.weak = grown.lowered = false;
+  grown.weak = false;
   grown.too_much = grown.too_little = {};
   known_.erase(next.id);
   std::erase_if(rest_ends_, [&](const auto& entry) {  // Their places change.

@@ -1,44 +1,22 @@
 #include "simulation/episode/growing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "simulation/episode/search_options.h"
 
 namespace contact {
 namespace {
 
-// Parts of its μ with which a group that does not end is tried.
-constexpr std::array<double, 5> kLower = {0.5, 0.2, 0.05, 1e-2, 1e-4};
-
-// A group without a solution is taken up again so often at most.
-constexpr int kMostReopened = 3;
 // A neighbour whose work is less than this part of the works that a group misses its balance by
 // cannot settle it: of a contact that a ramp presses groups would take in one swing after another.
 // More refuses what helps: 0.3 leaves wall 152 and support 429 of simulation_campaign unsolved; 0
 // eleven of 40 presses. Loads.WhatTheyHoldIsLimited….
 constexpr double kShare = 0.1;
-// Jumps may follow each other from trough to trough, 430 of them in damper 13 of the machines: a
-// group has so many cycles at most. The longest of 3,000 scenarios has ten.
-constexpr int kMostCycles = 16;
-// Nor does it help to take in more where the last one has left more than this part of the miss, as
-// in 125 swings of press 20. Of a row, where it does help, little is left.
-constexpr double kShrinks = 0.9;
-// A group lasts so much longer at least when it takes in the next. With μ on the other side of a
-// trough it may take in the same again and again: exponents 3 of simulation_campaign, without end.
-constexpr double kLonger = 1.01;
 // A change of what is around a group by less than this gives it no root that it had not. Scanned
 // again for every change, 2 more of 40 stacks of the machines spend a million steps.
 constexpr double kSame = 1e-3;
-// Where nothing disturbs it a collision lasts 2.9 δ_m/δ̇⁻ without damping, and somewhat longer with
-// damping. A group that begins with δ = 0 and lasts no longer than this is taken for one: of 103
-// smaller roots in 6,912 groups of random scenarios that loses two.
-constexpr double kPlain = 4.5;
-// Groups that overlap in time, the group itself among them, where it is scanned for a smaller root:
-// in a row of 40 balls scans take more steps than all else. LongRowGuess.APoorOneIsMadeAgain.
-constexpr std::ptrdiff_t kFew = 8;
-// So many times a group is left for a smaller root: a guard against two that replace each other.
-constexpr std::size_t kMostReplaced = 4;
 // A cycle that jumps alone has a μ so far, relative, beside its jump: on its very edge the least
 // change of a neighbour's μ makes it jump, so that the neighbour has no root either.
 // Episode.ACycleThatJumpsPastItsRestitutionIsInfeasibleAlone.
@@ -52,16 +30,16 @@ GroupId Neighbour(GroupId id, int places) {
 }  // namespace
 
 // Whether the balance of a group, which misses for every μ, can be settled with this neighbour.
-bool Growing::Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) const {
-  if (group.cycles + neighbour.cycles > kMostCycles) return false;
+// Jumps may follow each other from trough to trough, 430 of them in damper 13 of the machines, so a
+// group has no more cycles than a block has groups; the longest of 3,000 scenarios has ten.
+bool Growing::Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) {
+  if (std::cmp_greater(group.cycles + neighbour.cycles, kSearch.block)) return false;
   if (why != Growth::kTooLittle && why != Growth::kTooMuch) return true;
   const double in = group.restitution_in;
   const double work = why == Growth::kTooMuch  // What comes back of the one before can only go.
                           ? in * in * neighbour.work_compression
                           : std::max(neighbour.work_compression, -neighbour.work_restitution);
-  if (neighbour.cycles > 0 && work < kShare * group.Missing()) return false;
-  const Unknown& unknown = problem_.groups.At(group.id);
-  return unknown.growth != why || group.Missing() < kShrinks * unknown.missing;
+  return neighbour.cycles == 0 || work >= kShare * group.Missing();
 }
 
 bool Growing::TakeNext(const GroupId& id, Growth why) {
@@ -74,8 +52,6 @@ bool Growing::TakeNext(const GroupId& id, Growth why) {
   GroupSight taken = *there;
   // Of one that does not end in sight the group takes what there is: it is unfinished then.
   if (taken.cycles == 0) taken.last_turn = (taken.start_time + sight.time) / 2;
-  const double lasts = taken.last_turn - here->start_time;
-  if (lasts < kLonger * problem_.groups.At(id).lasts) return false;
   problem_.groups.Merge(*here, taken, why);
   log_.Grow(sight, id, problem_.groups.At(id));
   return true;
@@ -88,8 +64,7 @@ bool Growing::JoinPrevious(const GroupId& id, Growth why) {
   const GroupSight* here = sight.Find(id);
   const GroupSight* there = sight.Find(before);
   if (here == nullptr || here->cycles == 0 || there == nullptr || !there->sought) return false;
-  const bool limited = problem_.groups.At(before).status == Cycle::Status::kLimited;
-  if (here->after_rest || limited || !Settles(*here, *there, why)) return false;
+  if (here->after_rest || !Settles(*here, *there, why)) return false;
   problem_.groups.Merge(*there, *here, why);
   log_.Grow(sight, before, problem_.groups.At(before));
   return true;
@@ -183,14 +158,11 @@ bool Growing::IsNew(const GroupSight& group, const Sight& scan, Scanned* scanned
   return true;
 }
 
-// Whether a solved group may have a smaller root: it begins compressed, or lasts longer than a
-// collision that nothing disturbs, whose ε falls with μ.
+// Whether a solved group is to be scanned for a smaller root.
 bool Growing::MayHaveLess(const GroupSight& group) const {
   const Unknown& unknown = problem_.groups.At(group.id);
-  const bool solved = group.sought && unknown.status == Cycle::Status::kConverged;
-  if (!solved || group.weak || unknown.other_roots.size() >= kMostReplaced) return false;
-  const bool compressed = group.kind == Cycle::Kind::kNirv && group.id.place > 1;
-  return compressed || (group.end_time - group.start_time) * group.speed > kPlain * group.length;
+  return group.sought && !group.weak && unknown.status == Cycle::Status::kConverged &&
+         std::ssize(unknown.other_roots) < kSearch.revisions;
 }
 
 // How many groups a pass has seen overlap this one in time; the group itself counts.
@@ -201,10 +173,13 @@ std::ptrdiff_t Growing::Overlapping(const GroupSight& group, const Sight& scan) 
 }
 
 // Whether a group has a smaller root than the one found, and is to be sought from there. A cycle
-// that is solved alone stays: what it leaves to the next may have no root.
+// that is solved alone stays: what it leaves to the next may have no root. So does a group that
+// many overlap: in a row of 40 balls scans take more steps than all else
+// (LongRowGuess.APoorOneIs…).
 bool Growing::HasLess(const GroupSight& group, const Sight& scan) {
   if (problem_.scenario().solver.restitution_scope == RestitutionScope::kCycle) return false;
-  if (!MayHaveLess(group) || Overlapping(group, scan) > kFew) return false;
+  if (!MayHaveLess(group) || std::cmp_greater(Overlapping(group, scan), kSearch.at_once))
+    return false;
   if (!IsNew(group, scan, &scanned_below_)) return false;
   Unknown& unknown = problem_.groups.At(group.id);
   const double root = unknown.mu;
@@ -232,29 +207,15 @@ bool Growing::Reopen(const Sight& scan, double before) {
     if (!without) continue;
     // What loads limit may have a root while all else is held, and none with all else solved.
     const bool refuted =
-        unknown.status == Cycle::Status::kLimited && unknown.reopened == kMostReopened;
+        unknown.status == Cycle::Status::kLimited && unknown.reopened == kSearch.revisions;
     if (refuted) continue;
     const bool found = IsNew(g, scan, &scanned_) && bisection_.Scan(g);
     if (!found && Holds(g, unknown.too_much, 1) && Holds(g, unknown.too_little, -1)) continue;
-    unknown.given_up = unknown.reopened == kMostReopened;
+    unknown.given_up = unknown.reopened == kSearch.revisions;
     if (!unknown.given_up) ++unknown.reopened;
     unknown.status = Cycle::Status::kNotConverged;
     return true;
   }
-  return false;
-}
-
-bool Growing::Lower(const GroupId& id) {
-  const double mu = problem_.groups.At(id).mu;
-  for (const double part : kLower) {
-    problem_.groups.At(id).mu = part * mu;
-    problem_.groups.At(id).corrected = true;
-    const Sight sight = problem_.Evaluate({id}, false, kForever);
-    if (problem_.Aborted()) return true;
-    const GroupSight* g = sight.Find(id);
-    if (g != nullptr && g->ended) return problem_.groups.At(id).lowered = true;
-  }
-  problem_.groups.At(id).mu = problem_.groups.At(id).first_mu;
   return false;
 }
 
@@ -264,8 +225,6 @@ bool Growing::Close(const Sight& scan) {
     if (g.ended || !g.sought || g.start_time >= problem_.end()) continue;
     Unknown& unknown = problem_.groups.At(g.id);
     if (unknown.Decided()) continue;
-    if (!unknown.lowered && Lower(g.id)) return true;
-    if (unknown.lowered && Grow(g.id, Growth::kTooMuch)) return true;
     unknown.mu = unknown.first_mu;
     unknown.status = Cycle::Status::kUnfinished;
     return true;

@@ -28,7 +28,7 @@ class Growing {
   /// Takes up again a group that begins `before` [s] and was found to have no solution, where that
   /// does not hold with what is now around it. False: there is none.
   bool Reopen(const Sight& scan, double before = kForever);
-  /// A group that did not end in a scan: its μ is lowered until it does. False: nothing changes.
+  /// Says of a group that did not end in a scan that it is unfinished. False: there is none.
   bool Close(const Sight& scan);
 
  private:
@@ -43,8 +43,7 @@ class Growing {
   bool Grow(const GroupId& id, Growth why);
   bool TakeNext(const GroupId& id, Growth why);
   bool JoinPrevious(const GroupId& id, Growth why);
-  bool Settles(const GroupSight& group, const GroupSight& neighbour, Growth why) const;
-  bool Lower(const GroupId& id);
+  static bool Settles(const GroupSight& group, const GroupSight& neighbour, Growth why);
 
   Problem& problem_;
   IterationLog& log_;

@@ -7,17 +7,6 @@
 #include "simulation/episode/search_options.h"
 
 namespace contact {
-namespace {
-
-// A group misses by this many goals in one pass and by none in the next with the same μ: the two
-// see other motions. After so many of these no pass is coarse any more: blocks may take turns
-// without end. After the first, LongRowTail's 40 balls take 1.5 times the steps.
-constexpr double kUnlike = 2;
-constexpr int kMostUnlike = 3;
-
-}  // namespace
-
-bool March::IsExact() const { return unlike_ >= kMostUnlike; }
 
 bool March::IsSettled(const GroupId& id) const {
   const auto polished = polished_.find(id);
@@ -32,7 +21,7 @@ Timeline March::Read(const Sight& sight) const {
 Sight March::Look(const Ids& since) {
   return problem_.March({}, {.since = since,
                              .slopes = coarse_,
-                             .tolerance = coarse_ && !IsExact() ? kSearch.ahead_tolerance : 0,
+                             .tolerance = coarse_ ? kSearch.ahead_tolerance : 0,
                              .miss = ahead_,
                              .guess_from = 0});
 }
@@ -55,7 +44,7 @@ March::Ids March::Note(const Sight& sight) {
     }
     u.restitution_out = std::sqrt(std::max(g.squared, 0.0));
     const bool ends_after_all = sight.exact && u.status == Cycle::Status::kUnfinished &&
-                                g.end_time <= problem_.end() && u.reopened < kSearch.reopened;
+                                g.end_time <= problem_.end() && u.reopened < kSearch.revisions;
     u.reopened += ends_after_all;
     if (u.Decided() && !u.given_up && !ends_after_all) continue;
     const bool missed = g.sought && !(std::abs(g.Miss()) <= problem_.tolerance());
@@ -68,7 +57,6 @@ March::Ids March::Note(const Sight& sight) {
 March::End March::Solve(bool rejected) {
   rejected_ = rejected;
   coarse_ = true;
-  unlike_ = 0;
   ahead_ = kSearch.ahead_miss;
   next_.reset();
   polished_.clear(), tries_.clear(), waited_.clear();
@@ -155,12 +143,12 @@ std::optional<March::End> March::Polish(const Sight& sight) {
   coarse_ = false;
   if (open.empty()) return {};
   const double goal = problem_.tolerance();
-  const Hybrid::End end = SolveBlock(open, Has(open, sight) ? &sight : nullptr, goal,
+  const Newton::End end = SolveBlock(open, Has(open, sight) ? &sight : nullptr, goal,
                                      Precision::kExact, all ? kSearch.unseen * goal : 0);
-  if (end == Hybrid::End::kUnseen) return End{.until = problem_.end(), .tentative = true};
-  if (end == Hybrid::End::kLimit) GiveUp(open);
-  if (end == Hybrid::End::kSolved) Settle(open);
-  if (end == Hybrid::End::kStalled) SolveStrictly(open);
+  if (end == Newton::End::kUnseen) return End{.until = problem_.end(), .tentative = true};
+  if (end == Newton::End::kLimit) GiveUp(open);
+  if (end == Newton::End::kSolved) Settle(open);
+  if (end == Newton::End::kStalled) SolveStrictly(open);
   return {};
 }
 
@@ -172,12 +160,12 @@ void March::SolveStrictly(const Ids& open) {
   for (std::size_t few = kSearch.at_once; solved < open.size();) {
     const std::size_t next = std::min(solved + few, open.size());
     const Ids first(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(next));
-    const Hybrid::End end = SolveBlock(first, nullptr, problem_.tolerance(), Precision::kExact);
-    if (end == Hybrid::End::kLimit) GiveUp(first);
-    if (problem_.Aborted() || end == Hybrid::End::kLimit) return;
-    if (end == Hybrid::End::kStalled && few == 1) break;
-    if (end != Hybrid::End::kStalled) solved = next;
-    few = end == Hybrid::End::kStalled ? 1 : few;
+    const Newton::End end = SolveBlock(first, nullptr, problem_.tolerance(), Precision::kExact);
+    if (end == Newton::End::kLimit) GiveUp(first);
+    if (problem_.Aborted() || end == Newton::End::kLimit) return;
+    if (end == Newton::End::kStalled && few == 1) break;
+    if (end != Newton::End::kStalled) solved = next;
+    few = end == Newton::End::kStalled ? 1 : few;
   }
   if (solved == open.size()) return;
   coarse_ = false;
@@ -218,18 +206,18 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
   for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
     const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
     blurs_ = false;
-    const Hybrid::End end =
+    const Newton::End end =
         SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &miss : nullptr);
-    if (end == Hybrid::End::kLimit) GiveUp(ids);
-    unlike = ahead && end == Hybrid::End::kSolved && corrections_ == 0 &&
-             std::abs(miss.Miss()) > kUnlike * goal;
-    if (unlike && ++unlike_ <= kMostUnlike) return;
-    if (problem_.Aborted() || (end != Hybrid::End::kStalled && !unlike)) return;
+    if (end == Newton::End::kLimit) GiveUp(ids);
+    // With the same μ the two passes see other motions: to look again would go on without end.
+    unlike =
+        ahead && end == Newton::End::kSolved && corrections_ == 0 && std::abs(miss.Miss()) > goal;
+    if (problem_.Aborted() || (end != Newton::End::kStalled && !unlike)) return;
     if (blurs_) break;
   }
-  if (ahead && !unlike && (blurs_ || miss_ < kSearch.blurred)) {
-    const Hybrid::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
-    if (problem_.Aborted() || end != Hybrid::End::kStalled) return;
+  if (blurs_) {
+    const Newton::End end = SolveBlock(block, nullptr, goal, Precision::kExact);
+    if (problem_.Aborted() || end != Newton::End::kStalled) return;
   }
   Verdict(miss, block, goal, how);
 }
@@ -242,17 +230,6 @@ bool March::Has(const Ids& ids, const Sight& sight) const {
   });
 }
 
-// Which groups of a block a whole step would move: what it would not leaves the block.
-std::vector<bool> March::Moves(const Residuals::Value& value, double goal) {
-  const Eigen::ArrayXd step = Hybrid::NewtonStep(value).array().abs();
-  std::vector<bool> moves(static_cast<std::size_t>(step.size()));
-  const double least = kSearch.influence * goal * std::min(1.0, step.maxCoeff());
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    moves[i] = step[static_cast<Eigen::Index>(i)] > least;
-  }
-  return moves;
-}
-
 // Whether a coarse pass does not show what an exact one has shown with the same μ.
 bool March::Blurs(const Sight& coarse, const GroupSight& exact, double goal) {
   const GroupSight* g = coarse.Find(exact.id);
@@ -260,12 +237,12 @@ bool March::Blurs(const Sight& coarse, const GroupSight& exact, double goal) {
   return !(std::abs(g->Miss()) > goal && std::abs(g->Miss() / exact.Miss() - 1) < kSearch.alike);
 }
 
-Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
+Newton::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
                               double unseen, const GroupSight* shown) {
   const bool ahead = precision == Precision::kAhead;
   coarse_ = ahead;
   next_.reset();
-  Block block(problem_, log_, ids, ahead && !IsExact(), ahead_);
+  Block block(problem_, log_, ids, ahead, ahead_);
   const Eigen::VectorXd before = block.Mu();
   std::vector<bool> corrected;
   for (const GroupId& id : ids) corrected.push_back(problem_.groups.At(id).corrected);
@@ -273,41 +250,34 @@ Hybrid::End March::SolveBlock(const Ids& ids, const Sight* seen, double goal, Pr
   int most =
       problem_.scenario().solver.max_iterations - (ahead ? 0 : std::exchange(corrections_, 0));
   const bool leads = seen != nullptr && !seen->exact && !ahead && value.valid;
-  if (leads && most-- <= 0) return Hybrid::End::kLimit;
+  if (leads && most-- <= 0) return Newton::End::kLimit;
   if (leads) {  // What is coarse leads to where it is exact.
-    block.Set(block.Moved(before, Hybrid::NewtonStep(value)));
+    block.Set(block.Moved(before, Newton::Step(value)));
     block.OnStep(1);
     value = block.Begin();
   }
-  if (problem_.Aborted()) return Hybrid::End::kAborted;
-  miss_ = value.miss;
+  if (problem_.Aborted()) return Newton::End::kAborted;
   if (shown != nullptr && Blurs(block.last(), *shown, goal)) {
     blurs_ = true;
-    return Hybrid::End::kStalled;
+    return Newton::End::kStalled;
   }
-  if (!value.valid) return Hybrid::End::kStalled;
-  if (ids.size() > 1 && value.miss > goal) {
-    value = block.Keep(Moves(value, goal), value);
-  }
-  Hybrid hybrid(block);
+  if (!value.valid) return Newton::End::kStalled;
+  Newton newton(block);
   Eigen::VectorXd mu = block.Mu();
-  const HybridOptions options{.goal = goal,
+  const NewtonOptions options{.goal = goal,
                               .most_steps = most,
-                              .near = ahead || ids.size() <= kSearch.at_once ? 0 : kSearch.near,
                               .slopes_at_once = ids.size() <= kSearch.at_once,
                               .most_trials = kSearch.trials,
-                              .creep = kSearch.creep,
                               .limited = true,
                               .blind = unseen};
-  const Hybrid::End end = hybrid.Solve(options, std::move(value), &mu);
-  miss_ = hybrid.miss();
-  if (ahead) corrections_ = hybrid.steps();
-  if (end != Hybrid::End::kStalled) block.Set(mu);
-  if (end == Hybrid::End::kSolved) {
+  const Newton::End end = newton.Solve(options, std::move(value), &mu);
+  if (ahead) corrections_ = newton.steps();
+  if (end != Newton::End::kStalled) block.Set(mu);
+  if (end == Newton::End::kSolved) {
     Freeze(ids, block.last());
     next_ = std::move(block.last());
   }
-  if (end == Hybrid::End::kStalled) {
+  if (end == Newton::End::kStalled) {
     for (std::size_t i = 0; i < ids.size(); ++i) {
       Unknown& unknown = problem_.groups.At(ids[i]);
       unknown.mu = before[static_cast<Eigen::Index>(i)];
@@ -371,10 +341,7 @@ void March::Grow(const GroupSight& group, Root root, const Sight& sight) {
   coarse_ = true;
   if (root != Root::kFound && !growing_.Answer(group, root)) {
     if (problem_.Aborted() || Waits(group, sight)) return;
-    const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
-    if (grows && root == Root::kJump) root = bisection_.Solve(group, true);
-    if (problem_.Aborted() || (root == Root::kFound && tries_[group.id]++ < kSearch.tries)) return;
-    if (root != Root::kFound) growing_.Decide(group.id, root);
+    growing_.Decide(group.id, root);
   }
   if (root == Root::kFound) growing_.Force(group.id);
   tries_.clear(), polished_.clear();

@@ -41,7 +41,6 @@ class March {
 
   Sight Look(const Ids& since = {});
   Ids Note(const Sight& sight);
-  bool IsExact() const;
   bool IsSettled(const GroupId& id) const;
   Timeline Read(const Sight& sight) const;
   bool IsEnough(const Sight& sight, const GroupSight* miss) const;
@@ -51,10 +50,9 @@ class March {
   static bool SeesAll(const Sight& sight);
   bool MayBeAll(const Sight& sight) const;
   void Advance(const Sight& sight, const GroupSight& miss);
-  Hybrid::End SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
+  Newton::End SolveBlock(const Ids& ids, const Sight* seen, double goal, Precision precision,
                          double unseen = 0, const GroupSight* shown = nullptr);
   static bool Blurs(const Sight& coarse, const GroupSight& exact, double goal);
-  static std::vector<bool> Moves(const Residuals::Value& value, double goal);
   void Settle(const Ids& ids);
   bool Has(const Ids& ids, const Sight& sight) const;
   void Freeze(const Ids& ids, const Sight& sight);
@@ -73,10 +71,8 @@ class March {
   bool rejected_ = false;
   double ahead_ = 0;           // The miss to which blocks are solved ahead.
   bool coarse_ = true;         // The next pass that looks may be.
-  int unlike_ = 0;             // Coarse passes that saw other motions with the same μ.
   bool blurs_ = false;         // The last block was not solved, for its pass showed another motion.
   int corrections_ = 0;        // Of the last block that was solved ahead.
-  double miss_ = 0;            // What the last block missed by when it stalled.
   std::optional<Sight> next_;  // What has solved a block, and went on to the next miss.
   struct Polished {
     double mu = 0;         // When it was polished last,

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/episode/search_options.h"
 #include "simulation/model/index.h"
 
 namespace contact {
 namespace {
 
-// A kept guess that is off by more than this, relative, is poor. It is made again so often at most:
-// two passes may take turns in what they guess, as in cradle 1 of simulation_campaign; with two
-// instead of eight a row of 40 balls at ε = 0.5 takes 1.6 times the steps.
+// A kept guess that is off by more than this, relative, is poor, and made again.
 constexpr double kPoorShare = 0.2;
-constexpr int kGuesses = 8;
 // A contact does not rest for less than this part of the cycle before.
 constexpr double kSoon = 0.1;
 
@@ -93,7 +91,7 @@ void Membership::Open(ContactState& state, double effective_mass, double externa
 void Membership::Guess(Unknown& unknown, double mu) const {
   if (unknown.kept && unknown.first_mu > 0 && IsSought(scenario_, unknown.id.contact)) {
     const bool poor = std::abs(mu - unknown.mu) > kPoorShare * unknown.mu;
-    if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kGuesses) return;
+    if (!poor || packing_ || unknown.id.place > 1 || unknown.guesses == kSearch.revisions) return;
     ++unknown.guesses;
   }
   unknown.mu = unknown.first_mu = mu;

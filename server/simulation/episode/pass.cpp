@@ -13,9 +13,8 @@ namespace contact {
 namespace {
 
 // A contact creeps if it has not turned in so many of the times in which it swings, or in which
-// what its damping holds back fades: e⁻⁴⁰ is round-off. Scans have a little less patience, so that
-// what they see to end is seen to end by all.
-constexpr double kPatience = 40, kPatienceOfAScan = 32;
+// what its damping holds back fades: e⁻⁴⁰ is round-off.
+constexpr double kPatience = 40;
 // Periods of a sine that may turn a contact.
 constexpr double kPeriods = 2;
 // Cycles after the end of the run that may begin until a pass far beyond it sees no more: one
@@ -34,11 +33,6 @@ constexpr double kLeastRestitution = 0.05;
 // A group that was negligible is so until its work is this many times what is: its μ, which depends
 // on that, changes its work.
 constexpr double kStillWeak = 10;
-// After so many changes between the two a group stays what it is then. Else it may change without
-// end: with the μ of the cycle before it lasts for two cycles, which are not negligible, and with
-// its own μ for one, which is.
-constexpr int kMostFlips = 3;
-
 void Add(Eigen::ArrayXd& sum, const Eigen::ArrayXd& gradient) {
   const Eigen::Index known = sum.size();
   sum.conservativeResize(gradient.size());
@@ -223,7 +217,9 @@ void Pass::OnEnd(ContactState& state, const Eigen::ArrayXd& compression_gradient
   seen->ended = true;
   seen->separated = cycle.end == Cycle::End::kSeparation;
   const Unknown& known = *groups_.Find(seen->id);
-  seen->weak = known.flips > kMostFlips
+  // With the μ of the cycle before a group may last for two cycles, which are not negligible, and
+  // with its own μ for one, which is: without a bound it changes without end.
+  seen->weak = known.flips > kSearch.revisions
                    ? known.weak
                    : seen->cycles == 1 && membership_.IsWeak(state, known.weak ? kStillWeak : 1);
   Measure(*seen);
@@ -318,8 +314,7 @@ bool Pass::Creeps() const {
   };
   see(motion_.equations().loads(), &Load::slope);
   see(motion_.equations().drives(), &Drive::jerk);
-  const double patience = plan_.block.empty() ? kPatienceOfAScan : kPatience;
-  return motion_.time() - since > patience * SlowestTurn() + kPeriods * longest_period_;
+  return motion_.time() - since > kPatience * SlowestTurn() + kPeriods * longest_period_;
 }
 
 // Far beyond the end of the run a pass has seen enough of it, or nothing for long.

@@ -22,8 +22,6 @@ constexpr double kFelt = 3000, kFeltWhenPressed = 3e4, kFeltWhenDriven = 1e5, kF
 constexpr double kWorth = 0.1, kShortly = 1e-3;
 // So often a pass is made again because a rest in it should have ended earlier.
 constexpr int kMostRetries = 30;
-// Coarser passes miss events.
-constexpr double kCoarsest = 1e-6;
 // Before all that begins.
 constexpr double kAlways = -1e300;
 
@@ -107,9 +105,7 @@ Motion::Pause Problem::SeeFlight() { return Look(nullptr, {.until = end_, .patie
 
 // The tolerance of a pass that need not be more exact than this.
 double Problem::Tolerance(double wanted) const {
-  const double finest = motion_.finest();
-  if (scenario_.solver.clip_tension) return 0;
-  return std::clamp(wanted, finest, std::max(kCoarsest, finest));
+  return scenario_.solver.clip_tension ? 0 : std::max(wanted, motion_.finest());
 }
 
 double Problem::MostMu(const GroupSight& g) const {

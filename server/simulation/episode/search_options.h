@@ -28,18 +28,14 @@ struct SearchOptions {
   /// what began before it is solved first, and without it. Less: rows of 40 balls at ε = 0.9 take
   /// 2.7 times the steps at 0.02; more: those at 0.5 take 2.6 times.
   double astray = 0.3;
-  /// In units of the goal: a group that a whole step moves by less leaves its block, and one that
-  /// has moved by less between two polishes is settled. Prototype: 100 times more or less takes as
-  /// many steps.
+  /// In units of the goal: a group that has moved by less between two polishes is settled.
+  /// Prototype: 100 times more or less takes as many steps.
   double influence = 0.02;
   /// Part of what a pass sees that must be final to be recorded: less records often, more lets
   /// passes become long.
   double commit = 0.3;
   /// Spans of a block that a trial may last beyond it, until what has not ended is open.
   double trial_spans = 8;
-  /// A miss that may be the error of a pass ahead, so that a block which stalls there is solved
-  /// exactly. Always: 1.7 times the steps in the prototype.
-  double blurred = 1e-2;
   /// Relative difference between the misses that a coarse and an exact pass see, to which they have
   /// seen the same motion. Zero: all is solved exactly that an exact pass has seen to miss.
   double alike = 0.5;
@@ -50,17 +46,16 @@ struct SearchOptions {
   /// Part of the tolerance that a last step without a look may leave; the recording tells. Without,
   /// a triple chain takes 1.2 times as long in the prototype.
   double unseen = 0.1;
-  /// Below this miss Broyden's update takes the place of slopes of blocks of more than `at_once`.
-  double near = 1e-3;
   /// Trials of a step: less than 12 % of one, the third, is no descent worth its passes. With five
   /// long rows 0 to 8 take 1.05 times the steps.
   int trials = 3;
-  /// Two steps in a row of less than this part lead to a jump, not to a root.
-  double creep = 0.2;
   /// Roots of a group alone that lead to no solution of its block, until it grows.
   int tries = 2;
-  /// How often a group that was found unfinished, and ends after all, is sought again.
-  int reopened = 3;
+  /// How often a word about a group may be taken back, each kind of word for itself: that it has no
+  /// solution or does not end, that it is negligible, its guess, its root for a smaller one. Two
+  /// words that take turns would go on without end. With 4 a group grows without need in
+  /// Episode.ALongRowIsSolvedInParts.
+  int revisions = 8;
   /// Rounds in an episode: a guard against a march that goes round.
   int rounds = 3000;
 };

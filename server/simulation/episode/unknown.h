@@ -41,11 +41,9 @@ struct Unknown {
   int flips = 0;                  ///< How often it became negligible, or was no more.
   bool cut = false;               ///< It does not end before the end of the run.
   bool given_up = false;          ///< As many corrections as are allowed did not solve it.
-  bool waits = false;    ///< For guesses that overlap it: what it misses tells nothing yet.
-  bool lowered = false;  ///< It did not end, and its μ was lowered until it did.
-  int iterations = 0;    ///< Corrections of μ by the search that found it.
+  bool waits = false;  ///< For guesses that overlap it: what it misses tells nothing yet.
+  int iterations = 0;  ///< Corrections of μ by the search that found it.
   Growth growth = Growth::kNotGrown;
-  double missing = 0;  ///< By what it missed its balance when it grew last [J].
   /// kConverged, kJump, kLimited, kInfeasible, kUnfinished: found. kNotConverged: still sought.
   Cycle::Status status = Cycle::Status::kNotConverged;
   Group::Reached too_much, too_little;

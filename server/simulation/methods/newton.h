@@ -4,7 +4,7 @@
 
 namespace contact {
 
-/// Equations r(x) = 0 as Hybrid asks for them.
+/// Equations r(x) = 0 as Newton asks for them.
 class Residuals {
  public:
   /// What they are at one x.
@@ -29,21 +29,18 @@ class Residuals {
 };
 
 /// What a search for a root may do.
-struct HybridOptions {
+struct NewtonOptions {
   double goal = 1e-10;         ///< The miss at which it is found.
   int most_steps = 100;        ///< Steps at most.
-  double near = 0;             ///< Below this miss Broyden's update takes the place of slopes.
   bool slopes_at_once = true;  ///< A whole step is tried with slopes; else they follow if it helps.
   int most_trials = 20;        ///< Trials of a step, each 0.35 times as long as the one before.
-  double creep = 0;      ///< Two steps in a row of less than this part lead to a jump: a stall.
-  bool limited = false;  ///< No unknown can be moved by −1 or less: see Sinks.
-  double blind = 0;      ///< A last step leads there unseen if it leaves less than this.
+  bool limited = false;        ///< No unknown can be moved by −1 or less: see Sinks.
+  double blind = 0;            ///< A last step leads there unseen if it leaves less than this.
 };
 
-/// Newton's method with steps that are shortened until the merit falls, and with Broyden's update
-/// of the slopes near a root: a root of n equations from slopes that are dear. It knows nothing of
-/// what the equations mean.
-class Hybrid {
+/// Newton's method with steps that are shortened until the merit falls. It knows nothing of what
+/// the equations mean.
+class Newton {
  public:
   enum class End {
     kSolved,
@@ -53,13 +50,13 @@ class Hybrid {
     kAborted,
   };
 
-  explicit Hybrid(Residuals& equations) : equations_(equations) {}
+  explicit Newton(Residuals& equations) : equations_(equations) {}
 
   /// Goes on from x, where the equations are known to have the value `at`, with slopes.
-  End Solve(const HybridOptions& options, Residuals::Value at, Eigen::VectorXd* x);
+  End Solve(const NewtonOptions& options, Residuals::Value at, Eigen::VectorXd* x);
 
   /// Newton's step from a value with slopes; where these are singular the residuals back.
-  static Eigen::VectorXd NewtonStep(const Residuals::Value& value);
+  static Eigen::VectorXd Step(const Residuals::Value& value);
 
   int steps() const { return steps_; }
   double miss() const { return now_.miss; }
@@ -67,14 +64,11 @@ class Hybrid {
  private:
   bool Sinks(const Eigen::VectorXd& step);
   bool Correct(Eigen::VectorXd* x);
-  void Learn(Residuals::Value value, const Eigen::VectorXd& step);
 
   Residuals& equations_;
-  HybridOptions options_;
+  NewtonOptions options_;
   Residuals::Value now_;
-  bool true_ = false;  // The slopes are those at x.
   int steps_ = 0;
-  int creeps_ = 0;                               // Steps in a row of a small part.
   Eigen::Array<bool, Eigen::Dynamic, 1> sinks_;  // Unknowns that the last step led below −1.
 };
 
