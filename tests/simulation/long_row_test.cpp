@@ -108,7 +108,7 @@ TEST(LongRowTail, IsFull) {
     const std::vector<double> stiffnesses(balls - 1, 1e8), restitutions(balls - 1, restitution);
     Scenario scenario =
         testing::Chain(std::vector<double>(balls, 0.5), stiffnesses, restitutions, 0.2, end);
-    scenario.solver.max_steps = 1'500'000;
+    scenario.solver.max_steps = 5'000'000;
     const Record r = RunAndRecord(scenario);
     ASSERT_EQ(r.outcome.end, Outcome::End::kFinished) << balls << r.outcome.message;
     EXPECT_TRUE(r.outcome.all_converged) << balls;
