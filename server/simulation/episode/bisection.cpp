@@ -77,10 +77,9 @@ Root Bisection::Finish(Root root) {
   return root;
 }
 
-Root Bisection::Solve(const GroupSight& group, bool sharply, double near) {
+Root Bisection::Solve(const GroupSight& group, double near) {
   group_ = group;
   near_ = std::min(near, kRoot);
-  sharply_ = sharply;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
   error_ = kSearch.ahead_tolerance;
   const Root root = Exactly(Look());
@@ -101,7 +100,6 @@ bool Bisection::Scan(const GroupSight& group) {
   near_ = kRoot;
   until_ = kForever;
   error_ = kSearch.ahead_tolerance;
-  sharply_ = true;
   below_ = kForever;
   const Unknown kept = problem_.groups.At(group.id);
   Point last = At(0);
@@ -123,7 +121,6 @@ bool Bisection::ScanBelow(const GroupSight& group) {
   near_ = kRoot;
   until_ = group.end_time + kLongerPass * (group.end_time - group.start_time);
   error_ = kSearch.ahead_tolerance;
-  sharply_ = false;
   below_ = kBelow * group.mu;
   const Groups kept = problem_.groups;
   Point last = At(0);
@@ -218,7 +215,7 @@ void Bisection::Keep(const Point& point) {
 bool Bisection::HasNone() const {
   const double width = std::abs(less_.mu - more_.mu), mu = std::max(less_.mu, more_.mu);
   if (!less_.ended && width <= kCreeps * mu) return more_.excess > kSteeper * fall_ * width;
-  if (width <= kWide * mu && !sharply_ && PartsTroughs()) return true;
+  if (width <= kWide * mu && PartsTroughs()) return true;
   return width <= kNarrow * near_ * mu;
 }
 

@@ -20,9 +20,8 @@ class Bisection {
  public:
   explicit Bisection(Problem& problem) : problem_(problem) {}
 
-  /// `sharply`: a jump is to be told as narrowly as it can be; else it is enough that it is one.
   /// `near`: a root misses by less, relative, in ε²; at most what Newton needs to go on.
-  Root Solve(const GroupSight& group, bool sharply, double near = 1);
+  Root Solve(const GroupSight& group, double near);
   /// Whether the group has a root anywhere: ε may rise and fall with μ, so that a bracket that has
   /// none need not be the only one. Sets its μ to the root.
   bool Scan(const GroupSight& group);
@@ -58,12 +57,11 @@ class Bisection {
   Root Finish(Root root);
 
   Problem& problem_;
-  GroupSight group_;  // As first seen.
-  double near_ = 0;   // The excess of a root.
-  double until_ = 0;  // What has not ended then is open [s].
-  double below_ = 0;  // A scan looks for a root below this μ.
-  double error_ = 0;  // Relative error of a pass; 0: as little as the scenario asks.
-  bool sharply_ = true;
+  GroupSight group_;   // As first seen.
+  double near_ = 0;    // The excess of a root.
+  double until_ = 0;   // What has not ended then is open [s].
+  double below_ = 0;   // A scan looks for a root below this μ.
+  double error_ = 0;   // Relative error of a pass; 0: as little as the scenario asks.
   Point more_, less_;  // Nearest μ with too much, too little.
   double fall_ = 0;    // Of what is too much, over the last change of its μ.
 };

@@ -303,8 +303,7 @@ void March::Verdict(const GroupSight& seen, const Ids& ids, double goal, Precisi
   if (problem_.Aborted()) return;
   const GroupSight* found = sight.Find(seen.id);
   const GroupSight group = found != nullptr && found->ended ? *found : seen;
-  const bool grows = problem_.scenario().solver.restitution_scope != RestitutionScope::kCycle;
-  const Root root = bisection_.Solve(group, !grows, goal);
+  const Root root = bisection_.Solve(group, goal);
   if (problem_.Aborted()) return;
   if (root == Root::kFound && tries_[group.id]++ < kSearch.tries) {
     SolveBlock(ids, nullptr, goal, how);
