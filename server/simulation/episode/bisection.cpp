@@ -13,8 +13,9 @@ namespace {
 constexpr double kRoot = 1e-4;
 // In brackets wider than this part of μ passes look as coarsely as the march: a pass moves a jump
 // by some times its error. Those that decide are as exact as the scenario asks. In narrower ones
-// ends that differ by more than this part of the group's duration are those of two troughs.
-constexpr double kWide = 1e-3;
+// ends that are so far apart, in durations of the group, are those of two troughs: with a
+// thousandth the ball of plastic 99 takes in 109 cycles.
+constexpr double kWide = 1e-3, kElsewhere = 0.05;
 // Where the group was nearer than this its root is looked for nearby, so much further off than an
 // isolated collision has it, as a power.
 constexpr double kClose = 0.5, kBeyondRoot = 1.5;
@@ -222,7 +223,7 @@ bool Bisection::HasNone() const {
 // Whether the group ends at different troughs on the two sides, so that what is between is a jump.
 bool Bisection::PartsTroughs() const {
   const double end = std::max(less_.end, more_.end);
-  return less_.ended && std::abs(less_.end - more_.end) > kWide * (end - group_.start_time);
+  return less_.ended && std::abs(less_.end - more_.end) > kElsewhere * (end - group_.start_time);
 }
 
 // Looks beyond a root that is near, where an isolated collision would have it: A(ε) falls as 1/μ.
