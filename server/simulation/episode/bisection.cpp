@@ -27,11 +27,10 @@ constexpr double kLowest = 1e-3, kFine = 1.25;
 // A scan below a root goes by this factor, up to this part of the root: eight passes. A larger
 // factor misses narrow troughs, a smaller one costs more. SmallestRoot.IsTheAnswer.
 constexpr double kCoarse = 3, kBelow = 0.9;
-// A group that lasts at μ = 0 as long as at its root to within this factor ends alike, and is not
-// scanned. Of 3,845 groups of random scenarios that begin at rest or compressed 84 have a smaller
-// root, 77 of which last less than 0.6 times or more than 1.5 times as long; so do 20 % of the
-// others.
-constexpr double kAsLong = 1.5;
+// A group that lasts at μ = 0 between these parts of what it lasts at its root ends alike, and is
+// not scanned. Of 3,845 groups of random scenarios that begin at rest or compressed 84 have a
+// smaller root, 77 of which last less or more; so do 20 % of the others.
+constexpr double kShortest = 0.6, kLongest = 1.5;
 // After so many μ with which the group does not end there is none with which it does: 9 times more.
 constexpr int kMostOpen = 10;
 // A bracket holds a jump if it is so narrow, relative, in units of what a root may miss by: ε²
@@ -141,7 +140,7 @@ bool Bisection::ScanBelow(const GroupSight& group) {
 // trough or separation, for it lasts about as long.
 bool Bisection::Falls(const Point& undamped) const {
   const double lasts = (undamped.end - group_.start_time) / (group_.end_time - group_.start_time);
-  return undamped.excess > 0 && lasts * kAsLong > 1 && lasts < kAsLong;
+  return undamped.excess > 0 && lasts > kShortest && lasts < kLongest;
 }
 
 // Whether there is a root between two points of a scan. Where both are on the same side there may
