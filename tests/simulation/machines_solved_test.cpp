@@ -149,6 +149,10 @@ TEST(Machines, AreSolvedWhereGroupsDoNotEnd) {
   EXPECT_TRUE(IsFullWithin(100'000, "late", 16));
 }
 
+// A ball alone that gives back a hundred-thousandth of its energy ends its first group at a trough
+// that another μ moves by a little: that is no other trough.
+TEST(Machines, AreSolvedWhereTheyHardlyBounce) { EXPECT_TRUE(IsFullWithin(10'000, "plastic", 99)); }
+
 // What is solved is recorded up to where it is solved, also where a recording pauses on the way.
 TEST(Machines, AreRecordedNoFurtherThanSolved) {
   if (!kOptimized) GTEST_SKIP() << "runs end by their budget";

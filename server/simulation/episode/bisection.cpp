@@ -14,7 +14,8 @@ constexpr double kRoot = 1e-4;
 // In brackets wider than this part of μ passes look as coarsely as the march: a pass moves a jump
 // by some times its error. Those that decide are as exact as the scenario asks. In narrower ones
 // ends that are so far apart, in durations of the group, are those of two troughs: with a
-// thousandth the ball of plastic 99 takes in 109 cycles.
+// thousandth a ball that hardly bounces takes in 109 cycles.
+// Machines.AreSolvedWhereTheyHardlyBounce.
 constexpr double kWide = 1e-3, kElsewhere = 0.05;
 // Where the group was nearer than this its root is looked for nearby, so much further off than an
 // isolated collision has it, as a power.
@@ -235,8 +236,7 @@ void Bisection::Approach(const Point& first) {
   if (beyond.there) Keep(beyond);
 }
 
-// Looks for what the first point lacks: more at μ = 0, less at ever larger μ. What gives back too
-// much wherever it ends may give too little at μ = 0, for ε may rise with μ.
+// Looks for what the first point lacks: more at μ = 0, less at ever larger μ.
 Root Bisection::Bracket() {
   if (less_.there) {
     if (less_.mu == 0) return Root::kTooLittle;

@@ -202,7 +202,6 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
   const Ids block = timeline.Block(miss, 0, kSearch.block);
   const Ids wide = timeline.Block(miss, kSearch.at_once, kSearch.block);
   const bool ahead = how == Precision::kAhead;
-  bool unlike = false;
   for (const Ids& ids : block == wide ? std::vector<Ids>{block} : std::vector<Ids>{wide, block}) {
     const Sight* seen = sight.exact != ahead && Has(ids, sight) ? &sight : nullptr;
     blurs_ = false;
@@ -210,7 +209,7 @@ void March::SolveFirst(const Sight& sight, const GroupSight& miss, double goal, 
         SolveBlock(ids, seen, goal, how, 0, ahead && sight.exact ? &miss : nullptr);
     if (end == Newton::End::kLimit) GiveUp(ids);
     // With the same μ the two passes see other motions: to look again would go on without end.
-    unlike =
+    const bool unlike =
         ahead && end == Newton::End::kSolved && corrections_ == 0 && std::abs(miss.Miss()) > goal;
     if (problem_.Aborted() || (end != Newton::End::kStalled && !unlike)) return;
     if (blurs_) break;

@@ -33,6 +33,7 @@ constexpr double kLeastRestitution = 0.05;
 // A group that was negligible is so until its work is this many times what is: its μ, which depends
 // on that, changes its work.
 constexpr double kStillWeak = 10;
+
 void Add(Eigen::ArrayXd& sum, const Eigen::ArrayXd& gradient) {
   const Eigen::Index known = sum.size();
   sum.conservativeResize(gradient.size());
@@ -150,7 +151,6 @@ CycleHost::Factor Pass::OnStart(ContactState& state, double effective_mass, doub
     made.sought = IsSought(scenario_, cycle.contact);
     if (!IsGiven(contact.damping)) made.restitution_in = contact.restitution;
     made.first_cycle = cycle.number;
-    made.kind = cycle.kind;
     made.start_time = cycle.start_time;
     made.after_rest = state.member.after_rest;
     if (unknown.weak && mu == state.last_mu) {  // It keeps that μ, and so its column.

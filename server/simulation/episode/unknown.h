@@ -62,11 +62,10 @@ struct GroupSight {
   GroupId id;
   double mu = 0;
   double restitution_in = kNaN;
-  Cycle::Kind kind = Cycle::Kind::kCollision;  ///< How its first cycle begins.
-  bool sought = false;                         ///< Its μ is to be found; else a law gives it.
-  bool ended = false;                          ///< In the pass.
-  bool separated = false;                      ///< How it ended.
-  bool weak = false;                           ///< Negligible work.
+  bool sought = false;      ///< Its μ is to be found; else a law gives it.
+  bool ended = false;       ///< In the pass.
+  bool separated = false;   ///< How it ended.
+  bool weak = false;        ///< Negligible work.
   bool released = false;    ///< A restitution without compression before it; not sought.
   bool after_rest = false;  ///< Before it the contact has rested: it joins none before.
   int first_cycle = 1, cycles = 0;

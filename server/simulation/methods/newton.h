@@ -59,7 +59,6 @@ class Newton {
   static Eigen::VectorXd Step(const Residuals::Value& value);
 
   int steps() const { return steps_; }
-  double miss() const { return now_.miss; }
 
  private:
   bool Sinks(const Eigen::VectorXd& step);
