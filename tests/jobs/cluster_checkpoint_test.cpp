@@ -22,9 +22,7 @@ struct Keeper : testing::Record {
   }
 };
 
-TEST(ClusterCheckpoint, GoesOnAsIfItHadNeverStopped) {
-  Scenario s = testing::Gas(40, 1e8, 1, 0.2);
-  s.sample_interval = s.end_time / 200;
+void ExpectToGoOn(const Scenario& s) {
   Keeper whole;
   whole.outcome = contact::Run(s, whole);
   ASSERT_GT(whole.checkpoints.size(), 10U);
@@ -41,7 +39,31 @@ TEST(ClusterCheckpoint, GoesOnAsIfItHadNeverStopped) {
     for (std::size_t c = 0; c < rest.cycles.size(); ++c) {
       EXPECT_EQ(rest.cycles[c].mu, whole.cycles[whole.told[i] + c].mu);
     }
+    for (int column = 0; column < rest.columns; ++column) {
+      EXPECT_EQ(rest.Sample(rest.rows() - 1, column), whole.Sample(whole.rows() - 1, column));
+    }
   }
+}
+
+Scenario SampledGas() {
+  Scenario s = testing::Gas(40, 1e8, 1, 0.2);
+  s.sample_interval = s.end_time / 200;
+  return s;
+}
+
+TEST(ClusterCheckpoint, GoesOnAsIfItHadNeverStopped) { ExpectToGoOn(SampledGas()); }
+
+// On a table that swings, with a load that changes, and a ball on a spring.
+TEST(ClusterCheckpoint, OfHeldBodiesGoesOnAsIfItHadNeverStopped) {
+  Scenario s = SampledGas();
+  s.end_time *= 2;
+  s.drives.push_back({.body = 40, .amplitude = 1e-3, .angular_frequency = 300});
+  s.bodies.push_back({.name = "table", .velocity = 0.3, .fixed = true});
+  s.contacts[0].left = 40;
+  s.loads.push_back({.body = 11, .amplitude = 2, .angular_frequency = 500});
+  s.supports.push_back(
+      {.body = 20, .stiffness = 1e3, .damping = 1, .rest_position = s.bodies[20].position});
+  ExpectToGoOn(s);
 }
 
 // What a broken disk leaves of a checkpoint is refused, or read; nothing else happens.

@@ -165,5 +165,22 @@ TEST(Turns, InClustersAreThoseOfTheWhole) {
   }
 }
 
+// Balls that fly up and fall, and a table that swings below them.
+TEST(Turns, OfFlightsAndOfATableInClustersAreThoseOfTheWhole) {
+  Scenario s = testing::Gas(8, 1e8, 3);
+  for (int b = 0; b < 8; ++b) s.loads.push_back({.body = b, .constant = -0.3});
+  const double omega = 2 * std::numbers::pi * 30;
+  s.drives.push_back({.body = 8, .amplitude = 1e-3, .angular_frequency = omega});
+  s.bodies.push_back({.name = "table", .velocity = 1e-3 * omega, .fixed = true});
+  s.contacts[0].left = 8;
+  s = Turning(s, s.end_time / 3);
+  const Record parts = RunAndRecord(s), whole = testing::RunTogether(s);
+  ExpectLaterAndLater(parts);
+  ASSERT_EQ(parts.rows(), whole.rows());
+  for (int row = 0; row < parts.rows(); ++row) {
+    EXPECT_NEAR(parts.Sample(row, 0), whole.Sample(row, 0), 1e-4 * s.end_time) << row;
+  }
+}
+
 }  // namespace
 }  // namespace contact

@@ -184,4 +184,11 @@ inline Record RunAndRecord(const Scenario& scenario) {
   return record;
 }
 
+/// That of a run whose bodies all move together, however many they are.
+inline Record RunTogether(const Scenario& scenario) {
+  Record record;
+  record.outcome = RunWhole(scenario, record);
+  return record;
+}
+
 }  // namespace contact::testing

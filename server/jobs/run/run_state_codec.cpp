@@ -230,8 +230,13 @@ void serialize(Archive& archive, CycleSample& s) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, Trace::Exchange& e) {
+  archive(e.dissipated, e.work, e.from_power, e.to_power);
+}
+
+template <class Archive>
 void serialize(Archive& archive, Trace& t) {
-  archive(t.bodies, t.steps, t.ends, t.dissipated, t.pressed, t.presses, t.samples, t.turns);
+  archive(t.bodies, t.steps, t.ends, t.exchanged, t.pressed, t.presses, t.samples, t.turns);
 }
 
 template <class Archive>
@@ -254,7 +259,7 @@ template <class Archive>
 void serialize(Archive& archive, Piece& p) {
   archive(p.number, p.touch, p.start, p.end, p.before, p.trace, p.report.items, p.told);
   archive(p.pause, p.whereabouts, p.has_episode, p.steps, p.evaluations);
-  archive(p.iterations, p.growths, p.growths_no_progress, p.loss, p.impulse);
+  archive(p.iterations, p.growths, p.growths_no_progress, p.loss, p.work, p.impulse);
   archive(p.warned, p.unproven, p.missed);
   std::vector<Waiting> waited;
   for (const auto& group : p.waited) waited.push_back(*group);
@@ -273,7 +278,7 @@ void serialize(Archive& archive, ClusterState::Station& s) {
 template <class Archive>
 void serialize(Archive& archive, ClusterState& s) {
   archive(s.pieces, s.stations, s.waiting, s.number, s.look_at, s.blocks);
-  archive(s.useful, s.wasted, s.dissipated, s.loss, s.impulse);
+  archive(s.useful, s.wasted, s.dissipated, s.loss, s.work, s.impulse);
 }
 
 template <class Archive>

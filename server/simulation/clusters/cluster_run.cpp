@@ -7,7 +7,6 @@
 
 #include "simulation/clusters/cluster_state.h"
 #include "simulation/course/telling.h"
-#include "simulation/model/contact_spring.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -45,17 +44,25 @@ void Include(const std::vector<int>& more, std::vector<int>* in) {
 ClusterRun::ClusterRun(const Scenario& scenario, Observer& observer, std::stop_token stop)
     : scenario_(scenario),
       observer_(observer),
-      solver_(scenario, observer, stop),
       world_(scenario),
+      solver_(world_, observer, stop),
       agenda_(world_),
       frames_(world_, observer, std::move(stop)) {
   run_.warned.resize(scenario.contacts.size());
   run_.unproven.resize(scenario.contacts.size());
   run_.missed.resize(kDampingLaws);
   blocks_.of.resize(scenario.bodies.size());
-  run_.start_energy = Energy();
-  run_.start_momentum = Momentum();
-  Scale();
+  for (const Support& support : scenario.supports) {
+    if (world_.IsMoved(support.body) && world_.IsMoved(support.other)) {
+      blocks_.Bind({support.body, support.other});
+    }
+  }
+  world_.Begin(GroupsAtStart(world_, blocks_));
+  agenda_.Begin();
+  const Inventory start = InventoryOf(world_, 0);
+  run_.start_energy = start.energy;
+  run_.start_momentum = start.momentum;
+  Scale(start);
 }
 
 Outcome ClusterRun::Run() {
@@ -86,9 +93,10 @@ void ClusterRun::Treat(const Agenda::Entry& entry) {
   Gather(std::vector<int>(attempt.bodies), &attempt);
   while (true) {
     Flood(&attempt);
-    Rewind(attempt);
+    if (const auto failed = Rewind(attempt)) return Fail(*failed);
     if (attempt.until > attempt.time && Meets(&attempt)) continue;
-    const std::shared_ptr<Piece> piece = Solve(attempt);
+    const std::shared_ptr<Piece> piece =
+        Solve(attempt, std::min(scenario_.end_time, attempt.time + kLongest * scenario_.end_time));
     if (EndOf(piece->pause) != Outcome::End::kFinished) return Fail(*piece);
     const std::vector<Waiting> groups = GroupsAfter(world_, *piece, blocks_);
     const std::optional<Meeting> meeting = FirstMeeting(world_, *piece, groups);
@@ -144,6 +152,10 @@ bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
     for (const World::Station& station : world_.StationsOf(body)) {
       const Piece* piece = station.piece.get();
       if (piece == nullptr || piece->ends() <= wider.time) continue;
+      if (piece->IsFlight() && piece->begins() < wider.time) {
+        take(piece->start.bodies);
+        continue;
+      }
       if (piece->begins() < run_.state.time) return false;
       take(piece->start.bodies);
       if (piece->begins() >= wider.time) continue;
@@ -207,20 +219,30 @@ bool ClusterRun::Join(int body, Attempt* attempt) {
   return true;
 }
 
-// Undoes what the bodies did after the instant of the attempt.
-void ClusterRun::Rewind(const Attempt& attempt) {
+// Undoes what the bodies did after the instant of the attempt; a flight that goes on then ends
+// there instead. Returns a piece that fails, or null.
+std::shared_ptr<Piece> ClusterRun::Rewind(const Attempt& attempt) {
+  std::vector<std::shared_ptr<Piece>> cut;
   for (const int body : attempt.bodies) {
     for (const Piece* last = world_.LastPiece(body); last != nullptr && last->ends() > attempt.time;
          last = world_.LastPiece(body)) {
       useful_ -= last->steps;
       wasted_ += last->steps;
-      Undo(*last);
+      const std::shared_ptr<Piece> undone = Undo(*last);
+      if (undone->begins() < attempt.time) cut.push_back(undone);
     }
   }
+  for (const std::shared_ptr<Piece>& flight : cut) {
+    const std::shared_ptr<Piece> piece =
+        Solve({.time = flight->begins(), .bodies = flight->start.bodies}, attempt.time);
+    if (EndOf(piece->pause) != Outcome::End::kFinished) return piece;
+    Keep(piece, GroupsAfter(world_, *piece, blocks_));
+  }
+  return nullptr;
 }
 
 // A piece, and before it those that came later.
-void ClusterRun::Undo(const Piece& piece) {
+std::shared_ptr<Piece> ClusterRun::Undo(const Piece& piece) {
   for (const int body : std::vector<int>(piece.start.bodies)) {
     for (const Piece* last = world_.LastPiece(body); last != &piece;
          last = world_.LastPiece(body)) {
@@ -230,10 +252,10 @@ void ClusterRun::Undo(const Piece& piece) {
   const std::shared_ptr<Piece> undone = pieces_.extract(piece.number).mapped();
   world_.Undo(*undone);
   agenda_.Note(undone->start.bodies);
+  return undone;
 }
 
-std::shared_ptr<Piece> ClusterRun::Solve(const Attempt& attempt) {
-  const double until = std::min(scenario_.end_time, attempt.time + kLongest * scenario_.end_time);
+std::shared_ptr<Piece> ClusterRun::Solve(const Attempt& attempt, double until) {
   Cast cast = world_.Assemble(attempt.bodies, attempt.time, attempt.touch);
   std::vector<ContactState> before;
   for (const int contact : cast.contacts) before.push_back(world_.contacts()[At(contact)]);
@@ -345,6 +367,7 @@ void ClusterRun::ForgetUntil(double instant) {
     run_.outcome.episodes += piece->has_episode;
     frames_.Forget(*piece);
     loss_ += piece->loss;
+    work_ += piece->work;
     impulse_ += piece->impulse;
     for (std::size_t i = 0; i < piece->start.contacts.size(); ++i) {
       const std::size_t contact = At(piece->start.contacts[i]);
@@ -381,6 +404,7 @@ RunState ClusterRun::Save() const {
   clusters.wasted = wasted_;
   clusters.dissipated = frames_.dissipated();
   clusters.loss = loss_;
+  clusters.work = work_;
   clusters.impulse = impulse_;
   saved.clusters = std::make_shared<const ClusterState>(std::move(clusters));
   return saved;
@@ -410,44 +434,17 @@ void ClusterRun::Restore(const RunState& from) {
   useful_ = clusters.useful;
   wasted_ = clusters.wasted;
   loss_ = clusters.loss;
+  work_ = clusters.work;
   impulse_ = clusters.impulse;
   agenda_.Begin();
-  frames_.Restore(from.sampling, from.state.time, clusters.dissipated);
-}
-
-double ClusterRun::Energy() const {
-  std::vector<double> velocities;
-  for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
-    velocities.push_back(world_.PlaceOf(b, run_.state.time).v);
-  }
-  double energy = KineticEnergy(scenario_, velocities);
-  for (int c = 0; c < std::ssize(scenario_.contacts); ++c) {
-    const ContactState& state = world_.contacts()[At(c)];
-    if (!InTouch(state.phase)) continue;
-    energy += ElasticEnergy(scenario_.contacts[At(c)], -world_.DistanceAt(c, run_.state.time).gap,
-                            state.yield);
-  }
-  return energy;
-}
-
-double ClusterRun::Momentum() const {
-  double momentum = 0;
-  for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
-    const Body& body = scenario_.bodies[At(b)];
-    if (!body.fixed) momentum += body.mass * world_.PlaceOf(b, run_.state.time).v;
-  }
-  return momentum;
+  frames_.Restore(from.sampling, from.state.time,
+                  {.dissipated = clusters.dissipated, .load_work = clusters.work});
 }
 
 // The larger energy and momentum of begin and end, to which the balances are relative.
-void ClusterRun::Scale() {
-  double momentum = 0;
-  for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
-    const Body& body = scenario_.bodies[At(b)];
-    if (!body.fixed) momentum += body.mass * std::abs(world_.PlaceOf(b, run_.state.time).v);
-  }
-  run_.momentum_scale = std::max(run_.momentum_scale, momentum);
-  run_.energy_scale = std::max(run_.energy_scale, Energy());
+void ClusterRun::Scale(const Inventory& now) {
+  run_.momentum_scale = std::max(run_.momentum_scale, now.momentum_scale);
+  run_.energy_scale = std::max(run_.energy_scale, now.energy);
 }
 
 void ClusterRun::Summarize() {
@@ -465,23 +462,21 @@ void ClusterRun::Summarize() {
   outcome.growths_no_progress = run_.growths_no_progress;
   outcome.kinetic_energy = KineticEnergy(scenario_, outcome.velocities);
   if (outcome.end != Outcome::End::kFinished) return;
-  Scale();
-  // Loads are constant: beyond the pieces they work along the whole way, less that within them.
-  double work = 0, impulse = 0;
-  for (const Load& load : scenario_.loads) {
-    if (scenario_.bodies[At(load.body)].fixed) continue;
-    work += load.constant * world_.PlaceOf(load.body, outcome.time).u;
-    impulse += load.constant * outcome.time;
+  const Inventory now = InventoryOf(world_, outcome.time);
+  Scale(now);
+  double work = work_, impulse = impulse_;
+  for (int b = 0; b < std::ssize(scenario_.bodies); ++b) {
+    work += world_.SteadyForce(b) * world_.PlaceOf(b, outcome.time).u;
+    impulse += world_.SteadyForce(b) * outcome.time;
   }
   run_.energy_scale = std::max(run_.energy_scale, std::abs(work));
   if (run_.energy_scale > 0) {
     outcome.energy_residual =
-        std::abs(Energy() - run_.start_energy - work + loss_) / run_.energy_scale;
+        std::abs(now.energy - run_.start_energy - work + loss_) / run_.energy_scale;
   }
   const double exchanged = std::max(run_.momentum_scale, LoadImpulse(scenario_, outcome.time));
   if (exchanged > 0) {
-    outcome.momentum_residual =
-        std::abs(Momentum() - run_.start_momentum - impulse - impulse_) / exchanged;
+    outcome.momentum_residual = std::abs(now.momentum - run_.start_momentum - impulse) / exchanged;
   }
 }
 

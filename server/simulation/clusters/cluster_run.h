@@ -9,7 +9,9 @@
 #include "simulation/clusters/agenda.h"
 #include "simulation/clusters/blocks.h"
 #include "simulation/clusters/frames.h"
+#include "simulation/clusters/inventory.h"
 #include "simulation/clusters/meeting.h"
+#include "simulation/clusters/piece_solver.h"
 #include "simulation/clusters/world.h"
 #include "simulation/episode/run_state.h"
 #include "simulation/model/observer.h"
@@ -41,11 +43,11 @@ class ClusterRun {
   bool Gather(const std::vector<int>& more, Attempt* attempt) const;
   void Flood(Attempt* attempt) const;
   bool Join(int body, Attempt* attempt);
-  void Rewind(const Attempt& attempt);
+  std::shared_ptr<Piece> Rewind(const Attempt& attempt);
   void Keep(const std::shared_ptr<Piece>& piece, const std::vector<Waiting>& groups);
-  void Undo(const Piece& piece);
+  std::shared_ptr<Piece> Undo(const Piece& piece);
   bool Meets(Attempt* attempt);
-  std::shared_ptr<Piece> Solve(const Attempt& attempt);
+  std::shared_ptr<Piece> Solve(const Attempt& attempt, double until);
   void Count(const Piece& piece);
   void Fail(const Piece& piece);
 
@@ -56,15 +58,13 @@ class ClusterRun {
   void ForgetUntil(double instant);
   RunState Save() const;
 
-  double Energy() const;
-  double Momentum() const;
-  void Scale();
+  void Scale(const Inventory& now);
   void Summarize();
 
   const Scenario& scenario_;
   Observer& observer_;
-  PieceSolver solver_;
   World world_;
+  PieceSolver solver_;
   Agenda agenda_;
   Frames frames_;
   // What a run that goes on from here needs; Save fills in what the other members hold. Its time is
@@ -76,8 +76,9 @@ class ClusterRun {
   Blocks blocks_;
   std::string busy_with_;                 // Of the last piece.
   std::int64_t useful_ = 0, wasted_ = 0;  // Steps since bodies were bound last.
-  double loss_ = 0;                       // Dissipated in pieces that are certain [J],
-  double impulse_ = 0;  // and the impulse of walls and fixed bodies in them [N·s].
+  // Of pieces that are certain: dissipated [J], the work of what is not steady [J], and the impulse
+  // of that and of walls and fixed bodies [N·s].
+  double loss_ = 0, work_ = 0, impulse_ = 0;
 };
 
 }  // namespace contact

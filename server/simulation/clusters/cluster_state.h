@@ -25,7 +25,8 @@ struct ClusterState {
   std::int64_t useful = 0, wasted = 0;         ///< Steps since bodies were bound last.
   double dissipated = 0;                       ///< In forgotten pieces, as samples tell it [J].
   double loss = 0;                             ///< Dissipated in pieces [J].
-  double impulse = 0;                          ///< Of walls and fixed bodies [N·s].
+  double work = 0;                             ///< Of what is not steady, in pieces [J],
+  double impulse = 0;                          ///< and its impulse, with that of walls [N·s].
 };
 
 }  // namespace contact

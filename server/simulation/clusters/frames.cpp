@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "simulation/clusters/flight_turns.h"
 #include "simulation/course/telling.h"
 #include "simulation/model/contact_spring.h"
+#include "simulation/model/derived.h"
 #include "simulation/model/index.h"
 
 namespace contact {
@@ -13,7 +15,6 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
     : world_(world),
       scenario_(world.scenario()),
       equations_(scenario_),
-      loads_(scenario_.bodies.size()),
       log_(scenario_, std::move(stop),
            [&](const Samples& samples) { observer.OnSamples(samples); }),
       places_(scenario_.bodies.size()),
@@ -22,7 +23,7 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
       forces_(scenario_.contacts.size()),
       yields_(scenario_.contacts.size()) {
   for (const Load& load : scenario_.loads) {
-    if (!scenario_.bodies[At(load.body)].fixed) loads_[At(load.body)] += load.constant;
+    if (!IsSteady(load)) changing_.push_back(load);
   }
 }
 
@@ -58,6 +59,9 @@ void Frames::FindTurns(double from, double until, const Pieces& pieces) {
                                         : std::ranges::upper_bound(turns, from, {}, &Turn::time);
     for (; turn != turns.end() && turn->time <= until; ++turn) turns_.push_back(*turn);
   }
+  if (scenario_.turning_channels > equations_.contacts()) {
+    AddFlightTurns(world_, from, until, &turns_);
+  }
   std::ranges::stable_sort(turns_, {}, &Turn::time);
 }
 
@@ -67,11 +71,27 @@ double Frames::Gap(int contact) const {
   return world_.Gap(contact, of(c.left), of(c.right));
 }
 
+void Frames::FindAccelerations(double instant) {
+  for (std::size_t b = 0; b < accelerations_.size(); ++b) {
+    const int body = static_cast<int>(b);
+    accelerations_[b] = world_.Acceleration(body) + world_.driven().AccelerationOf(body, instant);
+  }
+  const auto push = [&](int body, double force) {
+    if (world_.IsMoved(body)) accelerations_[At(body)] += force / scenario_.bodies[At(body)].mass;
+  };
+  for (const Load& load : changing_) {
+    if (load.begin <= instant && instant < load.end) push(load.body, LoadForce(load, instant));
+  }
+  for (const Support& support : scenario_.supports) {
+    const double force = SupportForce(support);
+    push(support.body, force);
+    push(support.other, -force);
+  }
+}
+
 // F of what is in touch, and with it ẍ of all bodies.
 void Frames::FindForces(double instant, const Pieces& pieces) {
-  for (std::size_t b = 0; b < accelerations_.size(); ++b) {
-    accelerations_[b] = world_.Acceleration(static_cast<int>(b));
-  }
+  FindAccelerations(instant);
   std::ranges::fill(forces_, 0);
   std::ranges::fill(yields_, 0);
   for (const auto& [number, piece] : pieces) {
@@ -105,61 +125,109 @@ void Frames::Append(double instant, const Pieces& pieces, std::vector<double>* r
     row->insert(row->end(), {-Gap(c), equations_.Relative(c, velocities_.data()), force, external});
   }
   row->insert(row->end(), accelerations_.begin(), accelerations_.end());
-  AppendEnergies(instant, pieces, row);
+  const double supports = AppendSupports(row);
+  AppendEnergies(instant, pieces, supports, row);
 }
 
-void Frames::AppendEnergies(double instant, const Pieces& pieces, std::vector<double>* row) const {
-  double stored = 0, dissipated = dissipated_, work = 0;
+double Frames::Stretch(const Support& support) const {
+  const auto of = [&](int body) { return body == kNone ? Place{} : places_[At(body)]; };
+  return world_.Stretch(support, of(support.body), of(support.other));
+}
+
+double Frames::SupportForce(const Support& support) const {
+  const auto velocity = [&](int body) { return body == kNone ? 0 : places_[At(body)].v; };
+  const double rate = velocity(support.body) - velocity(support.other);
+  const Spring spring(support.stiffness, support.higher, Stretch(support));
+  return -spring.force - support.damping * rate;
+}
+
+double Frames::AppendSupports(std::vector<double>* row) const {
+  double sum = 0;
+  for (const Support& support : scenario_.supports) {
+    const double energy = Spring(support.stiffness, support.higher, Stretch(support)).energy;
+    row->insert(row->end(), {SupportForce(support), energy});
+    sum += energy;
+  }
+  return sum;
+}
+
+void Frames::AppendEnergies(double instant, const Pieces& pieces, double supports,
+                            std::vector<double>* row) const {
+  double stored = 0;
+  Exchanged exchanged = forgotten_;
   for (int c = 0; c < equations_.contacts(); ++c) {
     stored += ElasticEnergy(scenario_.contacts[At(c)], -Gap(c), yields_[At(c)]);
   }
   for (const auto& [number, piece] : pieces) {
-    if (piece->begins() < instant) dissipated += DissipatedIn(*piece, instant);
+    if (piece->begins() >= instant) continue;
+    const Exchanged in = ExchangedIn(*piece, instant);
+    exchanged.dissipated += in.dissipated;
+    exchanged.load_work += in.load_work;
   }
-  for (std::size_t b = 0; b < places_.size(); ++b) work += loads_[b] * places_[b].u;
-  row->insert(row->end(), {KineticEnergy(scenario_, velocities_), stored, 0, dissipated, work});
+  for (std::size_t b = 0; b < places_.size(); ++b) {
+    exchanged.load_work += world_.SteadyForce(static_cast<int>(b)) * places_[b].u;
+  }
+  row->insert(row->end(), {KineticEnergy(scenario_, velocities_), stored, supports,
+                           exchanged.dissipated, exchanged.load_work});
 }
 
 // At the ends of steps it was recorded, and so it is at samples that the piece has asked for. At
 // those of others it follows from the balance of its bodies since the begin of the step.
-double Frames::DissipatedIn(const Piece& piece, double instant) const {
+Exchanged Frames::ExchangedIn(const Piece& piece, double instant) const {
   const Trace& trace = piece.trace;
-  if (trace.dissipated.empty()) return 0;
+  if (trace.exchanged.empty()) return {};
+  if (instant >= piece.ends()) return {trace.exchanged.back().dissipated, piece.work};
   const std::size_t step = trace.StepAt(instant);
-  if (instant >= trace.steps[step].At(1)) return trace.dissipated[step];
-  const double before = step == 0 ? 0 : trace.dissipated[step - 1];
+  const auto first = static_cast<std::ptrdiff_t>(step * trace.bodies);
+  double steady = 0;
   own_.clear();
   for (std::size_t b = 0; b < trace.bodies; ++b) {
-    own_.push_back(trace.ends[step * trace.bodies + b].from);
+    const int body = piece.start.bodies[b];
+    own_.push_back(places_[At(body)]);
+    steady += world_.SteadyForce(body) * (own_.back().u - piece.start.places[b].u);
   }
-  const double from = EnergyOf(piece, own_);
-  own_.clear();
-  for (const int body : piece.start.bodies) own_.push_back(places_[At(body)]);
-  return before + from - EnergyOf(piece, own_);
+  const double work = trace.WorkAt(step, instant);
+  double dissipated = trace.exchanged[step].dissipated;
+  if (instant < trace.steps[step].At(1)) {
+    const Trace::Exchange before = step == 0 ? Trace::Exchange{} : trace.exchanged[step - 1];
+    dissipated = before.dissipated + work - before.work - EnergyOf(piece, own_, instant);
+    for (std::size_t b = 0; b < trace.bodies; ++b) {
+      own_[b] = trace.ends[static_cast<std::size_t>(first) + b].from;
+    }
+    dissipated += EnergyOf(piece, own_, trace.steps[step].start);
+  }
+  return {.dissipated = dissipated, .load_work = work - steady};
 }
 
-double Frames::EnergyOf(const Piece& piece, std::span<const Place> places) const {
+double Frames::EnergyOf(const Piece& piece, std::span<const Place> places, double instant) const {
   const std::vector<int>& bodies = piece.start.bodies;
-  double energy = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const double mass = scenario_.bodies[At(bodies[b])].mass;
-    energy += 0.5 * mass * places[b].v * places[b].v - loads_[At(bodies[b])] * places[b].u;
-  }
   const auto of = [&](int body) {
     const auto found = std::ranges::lower_bound(bodies, body);
-    if (found == bodies.end() || *found != body) return Place{};  // It stands still.
+    if (found == bodies.end() || *found != body) return world_.driven().PlaceOf(body, instant);
     return places[static_cast<std::size_t>(found - bodies.begin())];
   };
+  double energy = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    energy += 0.5 * scenario_.bodies[At(bodies[b])].mass * places[b].v * places[b].v;
+    for (const int s : world_.SupportsOf(bodies[b])) {
+      const Support& support = scenario_.supports[At(s)];
+      const double stretch = world_.Stretch(support, of(support.body), of(support.other));
+      energy += Spring(support.stiffness, support.higher, stretch).energy;
+    }
+  }
   for (const int c : piece.start.contacts) {
     const Contact& contact = scenario_.contacts[At(c)];
-    energy +=
-        ElasticEnergy(contact, -world_.Gap(c, of(contact.left), of(contact.right)), yields_[At(c)]);
+    const double gap = world_.Gap(c, of(contact.left), of(contact.right));
+    energy += ElasticEnergy(contact, -gap, yields_[At(c)]);
   }
   return energy;
 }
 
 void Frames::Forget(const Piece& piece) {
-  if (!piece.trace.dissipated.empty()) dissipated_ += piece.trace.dissipated.back();
+  forgotten_.load_work += piece.work;
+  if (!piece.trace.exchanged.empty()) {
+    forgotten_.dissipated += piece.trace.exchanged.back().dissipated;
+  }
 }
 
 }  // namespace contact

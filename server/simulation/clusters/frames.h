@@ -9,6 +9,7 @@
 #include "simulation/clusters/world.h"
 #include "simulation/course/sample_log.h"
 #include "simulation/episode/run_state.h"
+#include "simulation/model/index.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/equations.h"
 
@@ -35,12 +36,13 @@ class Frames {
 
   Sampling Save() const { return log_.Save(); }
   /// Dissipated in the pieces that are forgotten [J].
-  double dissipated() const { return dissipated_; }
-  /// Goes on from there; all up to `time` was taken [s].
-  void Restore(Sampling from, double time, double dissipated) {
+  double dissipated() const { return forgotten_.dissipated; }
+  /// Goes on from there; all up to `time` was taken [s]. `forgotten`: in pieces, of the work that
+  /// which steady loads did not do.
+  void Restore(Sampling from, double time, const Exchanged& forgotten) {
     log_.Restore(std::move(from));
     until_ = time;
-    dissipated_ = dissipated;
+    forgotten_ = forgotten;
   }
 
  private:
@@ -48,23 +50,32 @@ class Frames {
   void FindTurns(double from, double until, const Pieces& pieces);
   void Append(double instant, const Pieces& pieces, std::vector<double>* row);
   void FindForces(double instant, const Pieces& pieces);
-  /// What the contacts of a piece have dissipated from its begin to the instant of the sample [J].
-  double DissipatedIn(const Piece& piece, double instant) const;
-  /// Kinetic energy of the bodies of a piece and elastic energy of its contacts less the work of
-  /// the loads since t = 0 [J], where its bodies are at these places.
-  double EnergyOf(const Piece& piece, std::span<const Place> places) const;
+  /// ẍ of all bodies without their contacts.
+  void FindAccelerations(double instant);
+  /// In a piece from its begin to the instant of the sample; of the work that which steady loads
+  /// did not do.
+  Exchanged ExchangedIn(const Piece& piece, double instant) const;
+  /// Energy of the bodies of a piece, its contacts and supports [J], where its bodies and what
+  /// stands or is driven beside them are at these places at the instant.
+  double EnergyOf(const Piece& piece, std::span<const Place> places, double instant) const;
+  /// Appends force and energy of each support; the sum of the energies [J].
+  double AppendSupports(std::vector<double>* row) const;
   /// Appends the energies of the system.
-  void AppendEnergies(double instant, const Pieces& pieces, std::vector<double>* row) const;
+  void AppendEnergies(double instant, const Pieces& pieces, double supports,
+                      std::vector<double>* row) const;
+  /// By how much a support is longer than without force [m], and its force on its body [N], (M4).
+  double Stretch(const Support& support) const;
+  double SupportForce(const Support& support) const;
   /// −δ of a contact between the places of the sample [m].
   double Gap(int contact) const;
 
   const World& world_;
   const Scenario& scenario_;
   const Equations equations_;
-  std::vector<double> loads_;  // On each body [N]: they are constant.
+  std::vector<Load> changing_;  // Loads that are not steady.
   SampleLog log_;
   double until_ = 0;  // All up to here are taken [s].
-  double dissipated_ = 0;
+  Exchanged forgotten_;
   std::vector<CycleSample> wanted_;
   std::vector<Turn> turns_;
   // Of a sample: each body's place, ẋ and ẍ, and F and δ_y of each contact.

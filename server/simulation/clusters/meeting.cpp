@@ -17,21 +17,63 @@ constexpr double kSoon = 1;
 // 1e-17 J.
 constexpr double kOverlap = 1e-13;
 
-// Sets that are joined two by two.
-class Sets {
+// Some bodies, of which some wait, joined two by two to groups.
+class Gatherer {
  public:
-  explicit Sets(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0); }
-  std::size_t Of(std::size_t i) const {
-    while (of_[i] != i) i = of_[i];
-    return i;
+  // `bodies`: ascending; they outlive this.
+  explicit Gatherer(const std::vector<int>& bodies)
+      : bodies_(bodies), of_(bodies.size()), waits_(bodies.size()) {
+    std::iota(of_.begin(), of_.end(), 0);
   }
-  void Join(std::size_t i, std::size_t j) {
-    const std::size_t a = Of(i), b = Of(j);
+
+  // The bodies of a contact, or the two ends of a block, wait together.
+  void Join(int body, int other) {
+    const std::size_t a = First(body), b = First(other);
     of_[std::max(a, b)] = std::min(a, b);
+    waits_[PlaceOf(body)] = waits_[PlaceOf(other)] = true;
+  }
+  void Wait(int body) { Join(body, body); }
+  // What is in a block waits together; so does what does not fly yet.
+  void AddWhatNeverFlies(const World& world, const Blocks& blocks, double instant) {
+    for (const int body : bodies_) {
+      const std::vector<int> block = blocks.With(body);
+      if (block.size() > 1) Join(body, block.front());
+      if (world.FliesFrom(body) > instant) Wait(body);
+    }
+  }
+  // Whether two bodies wait together.
+  bool Together(int body, int other) const {
+    return waits_[PlaceOf(body)] && waits_[PlaceOf(other)] && First(body) == First(other);
+  }
+  // The groups, each in the order of its first body.
+  std::vector<Waiting> Groups() const {
+    std::vector<Waiting> groups;
+    std::vector<std::size_t> group_of(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!waits_[i]) continue;
+      const std::size_t first = First(bodies_[i]);
+      if (first == i) {
+        group_of[i] = groups.size();
+        groups.emplace_back();
+      }
+      groups[group_of[first]].bodies.push_back(bodies_[i]);
+    }
+    return groups;
   }
 
  private:
+  std::size_t PlaceOf(int body) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(bodies_, body) - bodies_.begin());
+  }
+  std::size_t First(int body) const {
+    std::size_t i = PlaceOf(body);
+    while (of_[i] != i) i = of_[i];
+    return i;
+  }
+
+  const std::vector<int>& bodies_;
   std::vector<std::size_t> of_;
+  std::vector<bool> waits_;
 };
 
 std::size_t PlaceOf(const Piece& piece, int body) {
@@ -133,48 +175,51 @@ std::optional<double> FirstOverlap(const World& world, int contact, const Path& 
 
 }  // namespace
 
+std::vector<Waiting> GroupsAtStart(const World& world, const Blocks& blocks) {
+  std::vector<int> bodies;
+  for (int body = 0; body < std::ssize(world.scenario().bodies); ++body) {
+    if (!world.scenario().bodies[At(body)].fixed) bodies.push_back(body);
+  }
+  Gatherer gatherer(bodies);
+  for (int c = 0; c < std::ssize(world.contacts()); ++c) {
+    const std::vector<int>& sides = world.Sides(c);
+    if (!sides.empty() && StartsPressed(world.contacts()[At(c)]))
+      gatherer.Join(sides.front(), sides.back());
+  }
+  gatherer.AddWhatNeverFlies(world, blocks, 0);
+  return gatherer.Groups();
+}
+
 std::vector<Waiting> GroupsAfter(const World& world, const Piece& piece, const Blocks& blocks) {
   const Cast& end = piece.end;
-  Sets sets(end.bodies.size());
-  std::vector<bool> held(end.bodies.size());
   if (piece.ends() >= world.scenario().end_time) return {};
+  Gatherer gatherer(end.bodies);
   for (std::size_t i = 0; i < end.contacts.size(); ++i) {
     const std::vector<int>& sides = world.Sides(end.contacts[i]);
     const ContactState& state = end.states[i];
     const bool touches =
         state.phase != Phase::kOpen ||
         (sides.size() == 2 && WillTouchSoon(world, piece, end.contacts[i], state.gap));
-    if (!touches) continue;
-    for (const int body : sides) held[PlaceOf(piece, body)] = true;
-    sets.Join(PlaceOf(piece, sides.front()), PlaceOf(piece, sides.back()));
+    if (touches) gatherer.Join(sides.front(), sides.back());
   }
-  for (std::size_t i = 0; i < end.bodies.size(); ++i) {
-    const std::vector<int> block = blocks.With(end.bodies[i]);
-    if (block.size() > 1) held[i] = true;
-    sets.Join(i, PlaceOf(piece, block.front()));
-  }
-  std::vector<Waiting> groups;
-  std::vector<std::size_t> group_of(end.bodies.size());
-  for (std::size_t i = 0; i < end.bodies.size(); ++i) {
-    if (!held[i]) continue;
-    if (sets.Of(i) == i) {
-      group_of[i] = groups.size();
-      Waiting& group = groups.emplace_back();
-      group.time = end.time;
-      group.lasted = piece.ends() - piece.begins();
-      group.outlook.episode = end.outlook.episode;
-      group.outlook.step = end.outlook.step;
-    }
-    groups[group_of[i] = group_of[sets.Of(i)]].bodies.push_back(end.bodies[i]);
-  }
+  gatherer.AddWhatNeverFlies(world, blocks, end.time);
+  std::vector<Waiting> groups = gatherer.Groups();
   const bool whole = groups.size() == 1 && groups[0].bodies == end.bodies;
-  if (whole) groups[0].outlook = end.outlook;
+  for (Waiting& group : groups) {
+    group.time = end.time;
+    group.lasted = piece.ends() - piece.begins();
+    group.outlook.step = end.outlook.step;
+    group.outlook.episode = end.outlook.episode;
+    if (whole) group.outlook = end.outlook;
+  }
   if (whole) return groups;
   const auto group_with = [&](int contact) -> Waiting* {
     const std::vector<int>& sides = world.Sides(contact);
-    const std::size_t first = PlaceOf(piece, sides.front()), last = PlaceOf(piece, sides.back());
-    const bool together = held[first] && held[last] && group_of[first] == group_of[last];
-    return together ? &groups[group_of[first]] : nullptr;
+    if (!gatherer.Together(sides.front(), sides.back())) return nullptr;
+    const auto has = [&](const Waiting& group) {
+      return std::ranges::binary_search(group.bodies, sides.front());
+    };
+    return &*std::ranges::find_if(groups, has);
   };
   for (const Unknown& unknown : end.outlook.unknowns) {
     if (Waiting* group = group_with(unknown.id.contact)) group->outlook.unknowns.push_back(unknown);

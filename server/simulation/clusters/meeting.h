@@ -14,6 +14,10 @@ struct Meeting {
   int inside = kNone, outside = kNone;
 };
 
+/// The groups that wait together at t = 0: bodies in blocks, pressed against each other, or not in
+/// flight yet. All other bodies fly.
+std::vector<Waiting> GroupsAtStart(const World& world, const Blocks& blocks);
+
 /// The groups that wait together when a piece has ended: joined by contacts in touch, by those that
 /// will soon be, and in blocks. All other bodies fly.
 std::vector<Waiting> GroupsAfter(const World& world, const Piece& piece, const Blocks& blocks);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -61,44 +60,19 @@ struct Piece {
   bool has_episode = false;
   std::int64_t steps = 0, evaluations = 0;
   std::int64_t iterations = 0, growths = 0, growths_no_progress = 0;
-  double loss = 0;                     ///< Energy dissipated in cycles that ended, or were cut [J].
-  double impulse = 0;                  ///< Of walls and fixed bodies [N·s].
+  double loss = 0;     ///< Dissipated in supports, and in cycles that ended or were cut [J].
+  double work = 0;     ///< Of drives, and of loads that are not steady [J],
+  double impulse = 0;  ///< and their impulse, with that of walls, fixed bodies, supports [N·s].
   std::vector<bool> warned, unproven;  ///< By contact; see RunState.
   std::vector<bool> missed;
 
+  /// Whether it may end at any instant instead: nothing but a flight.
+  bool IsFlight() const { return !has_episode && report.items.empty(); }
   double begins() const { return start.time; }
   double ends() const { return end.time; }
 };
 
 /// Pieces by their number.
 using Pieces = std::map<std::int64_t, std::shared_ptr<Piece>>;
-
-/// Solves pieces of a scenario.
-class PieceSolver {
- public:
-  /// All outlive the solver; the observer hears of steps, passes and growths.
-  PieceSolver(const Scenario& scenario, Observer& observer, std::stop_token stop);
-
-  /// The piece that begins so; if it begins with a flight, to `until` at most [s]. `run`: what was
-  /// told already, and the steps that were spent.
-  std::shared_ptr<Piece> Solve(Cast start, std::int64_t number, double until,
-                               const RunState& run) const;
-  /// About how it would go to `until` [s], or the first instant without a cycle: nothing of it is
-  /// solved.
-  std::shared_ptr<Piece> Look(Cast start, double until, const RunState& run) const;
-
- private:
-  struct Work;
-  Scenario PartOf(const Cast& cast) const;
-  RunState Begin(const Cast& cast, const Scenario& part, const RunState& run) const;
-  void Go(double until, Work* work) const;
-  void Cut(Work* work) const;
-  void Close(const RunState& run, Work* work) const;
-
-  const Scenario& scenario_;
-  Observer& observer_;
-  const std::stop_token stop_;
-  std::vector<std::vector<int>> loads_;  // Of each body.
-};
 
 }  // namespace contact

@@ -27,6 +27,18 @@ Place Trace::At(std::size_t body, std::size_t step, double instant) const {
   return {e.from.u + path.Value(theta), pace > 0 ? path.Slope(theta) / pace : e.from.v};
 }
 
+double Trace::WorkAt(std::size_t step, double instant) const {
+  const StepTime& time = steps[step];
+  const Exchange& e = exchanged[step];
+  if (instant >= time.At(1)) return e.work;
+  const double from = step == 0 ? 0 : exchanged[step - 1].work, done = e.work - from;
+  const double first = time.h * time.Rate(0) * e.from_power;
+  const double last = time.h * time.Rate(1) * e.to_power;
+  const double theta = time.Theta(instant);
+  return from + theta * (first +
+                         theta * (3 * done - 2 * first - last + theta * (first + last - 2 * done)));
+}
+
 std::span<const Trace::Pressed> Trace::PressedIn(std::size_t step) const {
   if (presses.empty()) return {};
   const std::size_t from = step == 0 ? 0 : presses[step - 1];
@@ -110,7 +122,12 @@ void TraceWriter::Write(const StepTime& step, const Eigen::ArrayXd& y0,
                            .to_acceleration = slope1[n + i]});
   }
   if (whole_.sample_interval == 0) return;
-  trace_.dissipated.push_back(motion_.ExchangedUntil(y1).dissipated - lost_before_);
+  const Exchanged until = motion_.ExchangedUntil(y1);
+  const auto work = motion_.equations().load_work();
+  trace_.exchanged.push_back({.dissipated = until.dissipated - lost_before_,
+                              .work = until.load_work,
+                              .from_power = slope0[work],
+                              .to_power = slope1[work]});
   for (const ActiveContact& active : motion_.equations().active) {
     const int contact = contacts_[static_cast<std::size_t>(active.contact)];
     trace_.pressed.push_back({contact, active.mu, active.yield});
@@ -130,7 +147,7 @@ void TraceWriter::TakeBack() {
   if (whole_.sample_interval == 0) return;
   trace_.samples.resize(held_samples_);
   trace_.turns.resize(held_turns_);
-  trace_.dissipated.resize(held_);
+  trace_.exchanged.resize(held_);
   trace_.presses.resize(held_);
   trace_.pressed.resize(held_ == 0 ? 0 : trace_.presses.back());
 }

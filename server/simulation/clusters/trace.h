@@ -24,11 +24,17 @@ struct Trace {
     double mu = 0;     ///< μ of its cycle [N·s/mᵖ⁺¹].
     double yield = 0;  ///< δ_y of its table [m].
   };
+  /// What was lost and done from the begin of all to the end of a step.
+  struct Exchange {
+    double dissipated = 0;                ///< In contacts and supports [J].
+    double work = 0;                      ///< By loads and drives [J],
+    double from_power = 0, to_power = 0;  ///< and its rate at both ends of the step [W].
+  };
 
   std::size_t bodies = 0;
   std::vector<StepTime> steps;
   std::vector<Ends> ends;            ///< Of each body in each step, step after step.
-  std::vector<double> dissipated;    ///< From the begin of all to the end of each step [J].
+  std::vector<Exchange> exchanged;   ///< In each step.
   std::vector<Pressed> pressed;      ///< In each step, step after step,
   std::vector<std::size_t> presses;  ///< up to here.
   std::vector<CycleSample> samples;  ///< Those that its cycles want, in the order of time.
@@ -39,6 +45,9 @@ struct Trace {
   /// A body at an instant of a step, by the quintic through both ends; in the clock of the step,
   /// by which it is smooth.
   Place At(std::size_t body, std::size_t step, double instant) const;
+  /// Work of loads and drives from the begin of all to an instant of a step [J], by the cubic
+  /// through both ends.
+  double WorkAt(std::size_t step, double instant) const;
   /// What is in touch in a step.
   std::span<const Pressed> PressedIn(std::size_t step) const;
 };

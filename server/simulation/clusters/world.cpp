@@ -17,15 +17,33 @@ constexpr double kNoise = 4 * std::numeric_limits<double>::epsilon();
 
 World::World(const Scenario& scenario)
     : scenario_(scenario),
+      driven_(scenario),
       accelerations_(scenario.bodies.size()),
+      flies_from_(scenario.bodies.size()),
       contacts_of_(scenario.bodies.size()),
+      loads_of_(scenario.bodies.size()),
+      supports_of_(scenario.bodies.size()),
       states_(InitialState(scenario).contacts),
       stations_(scenario.bodies.size()),
       waiting_(scenario.bodies.size()),
       changes_(scenario.bodies.size()) {
-  for (const Load& load : scenario.loads) {
-    if (!Moves(load.body)) continue;
-    accelerations_[At(load.body)] += load.constant / scenario.bodies[At(load.body)].mass;
+  for (std::size_t i = 0; i < scenario.loads.size(); ++i) {
+    const Load& load = scenario.loads[i];
+    if (!IsMoved(load.body)) continue;
+    loads_of_[At(load.body)].push_back(static_cast<int>(i));
+    if (IsSteady(load)) {
+      accelerations_[At(load.body)] += load.constant / scenario.bodies[At(load.body)].mass;
+    } else {
+      flies_from_[At(load.body)] = std::max(flies_from_[At(load.body)], load.end);
+    }
+  }
+  for (std::size_t i = 0; i < scenario.supports.size(); ++i) {
+    const Support& support = scenario.supports[i];
+    for (const int body : {support.other, support.body}) {
+      if (IsMoved(body)) flies_from_[At(body)] = kNever;
+    }
+    const int first = IsMoved(support.body) ? support.body : support.other;
+    if (IsMoved(first)) supports_of_[At(first)].push_back(static_cast<int>(i));
   }
   for (std::size_t b = 0; b < scenario.bodies.size(); ++b) {
     const Flight flight{.start = {.v = scenario.bodies[b].velocity},
@@ -34,20 +52,30 @@ World::World(const Scenario& scenario)
   }
   for (std::size_t c = 0; c < scenario.contacts.size(); ++c) {
     gaps_.push_back(InitialGap(scenario, scenario.contacts[c]));
-    states_[c].phase = Phase::kOpen;
     std::vector<int>& sides = sides_.emplace_back();
     for (const int body : {scenario.contacts[c].left, scenario.contacts[c].right}) {
-      if (!Moves(body)) continue;
+      if (!IsMoved(body)) continue;
       sides.push_back(body);
       contacts_of_[At(body)].push_back(static_cast<int>(c));
     }
   }
 }
 
+// What touches and approaches begins when it is its turn, but for what waits together.
+void World::Begin(const std::vector<Waiting>& groups) {
+  Wait(groups);
+  for (std::size_t c = 0; c < states_.size(); ++c) {
+    const std::vector<int>& sides = sides_[c];
+    const auto group = sides.empty() ? nullptr : waiting_[At(sides.front())];
+    const bool together = group != nullptr && group == waiting_[At(sides.back())];
+    if (!together) states_[c].phase = Phase::kOpen;
+  }
+}
+
 int World::Other(int contact, int body) const {
   const Contact& c = scenario_.contacts[At(contact)];
   const int other = c.left == body ? c.right : c.left;
-  return Moves(other) ? other : kNone;
+  return IsMoved(other) ? other : kNone;
 }
 
 // δ = u_left − u_right − gap, from displacements: positions would lose its digits.
@@ -76,7 +104,7 @@ double World::Approach(int contact) const {
 }
 
 Place World::PlaceOf(int body, double instant) const {
-  if (!Moves(body)) return {};
+  if (!IsMoved(body)) return body == kNone ? Place{} : driven_.PlaceOf(body, instant);
   const std::vector<Station>& stations = stations_[At(body)];
   auto at = stations.end() - 1;
   while (at != stations.begin() && at->from > instant) --at;
@@ -85,6 +113,10 @@ Place World::PlaceOf(int body, double instant) const {
   const auto place = std::ranges::lower_bound(bodies, body) - bodies.begin();
   const Trace& trace = at->piece->trace;
   return trace.At(static_cast<std::size_t>(place), trace.StepAt(instant), instant);
+}
+
+double World::Stretch(const Support& support, const Place& body, const Place& other) const {
+  return InitialStretch(scenario_, support) + body.u - other.u;
 }
 
 const Piece* World::LastPiece(int body) const {
@@ -101,9 +133,31 @@ double World::NextTouch(int contact) const {
     if (waiting_[At(body)] != nullptr) return kNever;
     from = std::max(from, stations_[At(body)].back().from);
   }
+  const Contact& c = scenario_.contacts[At(contact)];
+  if (driven_.Moves(c.left) || driven_.Moves(c.right)) return NextTouchOfDriven(contact, from);
   const Distance d = DistanceAt(contact, from);
   const double gap = std::abs(d.gap) <= Noise(contact, from) ? 0 : d.gap;
   return from + TimeToTouch(gap, d.speed, Approach(contact));
+}
+
+// No touch comes before the one that the largest δ̈ to come would bring: from there on anew, until
+// the faces touch. Next to a touch this converges as Newton's method does.
+double World::NextTouchOfDriven(int contact, double from) const {
+  const Contact& c = scenario_.contacts[At(contact)];
+  const double steady = Acceleration(c.left) - Acceleration(c.right);
+  double time = from;
+  while (time < scenario_.end_time) {
+    const double until = std::min(
+        {driven_.NextBreak(c.left, time), driven_.NextBreak(c.right, time), scenario_.end_time});
+    const double most = steady + driven_.MostAcceleration(c.left, 1, time, until) +
+                        driven_.MostAcceleration(c.right, -1, time, until);
+    const Distance d = DistanceAt(contact, time);
+    const double gap = std::abs(d.gap) <= Noise(contact, time) ? 0 : d.gap;
+    const double touch = time + TimeToTouch(gap, d.speed, most);
+    if (touch <= time) return time;
+    time = std::min(touch, until);
+  }
+  return kNever;
 }
 
 void World::ContactsAmong(const std::vector<int>& bodies, Cast* cast) const {
@@ -213,6 +267,7 @@ void World::Restore(std::vector<ContactState> contacts, std::vector<std::vector<
                     const std::vector<Waiting>& groups) {
   states_ = std::move(contacts);
   stations_ = std::move(stations);
+  std::ranges::fill(waiting_, nullptr);
   Wait(groups);
 }
 

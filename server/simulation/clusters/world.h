@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "simulation/clusters/driven_paths.h"
 #include "simulation/clusters/piece.h"
 #include "simulation/model/index.h"
 
@@ -23,12 +24,22 @@ class World {
 
   /// The scenario must outlive the world.
   explicit World(const Scenario& scenario);
+  /// The run begins: these wait, and all other bodies fly.
+  void Begin(const std::vector<Waiting>& groups);
 
   const Scenario& scenario() const { return scenario_; }
+  const DrivenPaths& driven() const { return driven_; }
   /// The contacts of a body, and those that it has with bodies that move.
   const std::vector<int>& ContactsOf(int body) const { return contacts_of_[At(body)]; }
   /// The body on the other side of a contact; kNone if it does not move.
   int Other(int contact, int body) const;
+  /// The loads on a body, and the supports that hold it; of those between two that move the first.
+  const std::vector<int>& LoadsOf(int body) const { return loads_of_[At(body)]; }
+  const std::vector<int>& SupportsOf(int body) const { return supports_of_[At(body)]; }
+  /// The sum of the loads on a body that are always the same [N].
+  double SteadyForce(int body) const {
+    return scenario_.bodies[At(body)].mass * Acceleration(body);
+  }
   /// The bodies of a contact that move: the left one first, at most two.
   const std::vector<int>& Sides(int contact) const { return sides_[At(contact)]; }
 
@@ -42,7 +53,7 @@ class World {
   /// Below this a gap is round-off [m].
   double Noise(int contact, double instant) const;
 
-  /// Where a body is at an instant [s]. What does not move is at 0.
+  /// Where a body is at an instant [s]. What stands still is at 0.
   Place PlaceOf(int body, double instant) const;
   const std::vector<Station>& StationsOf(int body) const { return stations_[At(body)]; }
   /// The last piece of a body; null if it has moved in none since what was forgotten.
@@ -51,8 +62,15 @@ class World {
   const std::shared_ptr<const Waiting>& WaitingOf(int body) const { return waiting_[At(body)]; }
   /// How often the future of a body has changed.
   int Changes(int body) const { return body == kNone ? 0 : changes_[At(body)]; }
-  /// ẍ of a body in flight [m/s²].
+  /// Whether forces move a body, which may be kNone.
+  bool IsMoved(int body) const { return body != kNone && !scenario_.bodies[At(body)].fixed; }
+  /// By how much a support is longer than without force [m], where its bodies are so.
+  double Stretch(const Support& support, const Place& body, const Place& other) const;
+  /// ẍ of a body in flight [m/s²]; of one that no force moves 0.
   double Acceleration(int body) const { return body == kNone ? 0 : accelerations_[At(body)]; }
+  /// From when on nothing holds a body that touches nothing, and the force on it is constant [s]:
+  /// then it flies. Before it waits.
+  double FliesFrom(int body) const { return flies_from_[At(body)]; }
   /// δ̈ of a contact whose bodies are both in flight [m/s²]; what is round-off of it is 0.
   double Approach(int contact) const;
 
@@ -77,15 +95,17 @@ class World {
 
  private:
   void Wait(const std::vector<Waiting>& groups);
-  bool Moves(int body) const { return body != kNone && !scenario_.bodies[At(body)].fixed; }
+  double NextTouchOfDriven(int contact, double from) const;
   void ContactsAmong(const std::vector<int>& bodies, Cast* cast) const;
   void Touch(int touch, Cast* cast) const;
 
   const Scenario& scenario_;
+  const DrivenPaths driven_;
   std::vector<double> gaps_;             // At t = 0 [m].
   std::vector<std::vector<int>> sides_;  // Of each contact.
   std::vector<double> accelerations_;    // In flight [m/s²].
-  std::vector<std::vector<int>> contacts_of_;
+  std::vector<double> flies_from_;       // [s].
+  std::vector<std::vector<int>> contacts_of_, loads_of_, supports_of_;
   std::vector<ContactState> states_;
   std::vector<std::vector<Station>> stations_;
   std::vector<std::shared_ptr<const Waiting>> waiting_;

@@ -135,21 +135,34 @@ inline double ForcingRate(const Scenario& scenario, std::span<const Load> loads,
   return rate;
 }
 
-/// Whether a scenario is solved in clusters, with flights in closed form between them. A few bodies
-/// are solved together: in a gas of 8 balls clusters are twice as fast, of 20 four times. So are
-/// bodies that are pressed at t = 0, for a piece begins with what touches.
+/// Whether a load is the same all the time.
+inline bool IsSteady(const Load& load) {
+  return load.begin == 0 && std::isinf(load.end) && load.slope == 0 && load.amplitude == 0;
+}
+
+/// Whether most bodies are pressed against each other at t = 0, or touch where something shakes
+/// them or holds them back: elsewhere a pulse leaves them.
+inline bool IsHeldTogether(const Scenario& scenario) {
+  const bool stays = !scenario.supports.empty() || !scenario.drives.empty() ||
+                     !std::ranges::all_of(scenario.loads, IsSteady);
+  const auto closed = std::ranges::count_if(scenario.contacts, [&](const Contact& contact) {
+    const double gap = InitialGap(scenario, contact);
+    return gap < 0 || (gap == 0 && stays);
+  });
+  return 2 * closed > std::ssize(scenario.bodies);
+}
+
+/// Whether a scenario is solved in clusters, with flights between them. A few bodies are solved
+/// together: in a gas of 8 balls clusters are twice as fast, of 20 four times. So are bodies that
+/// are held together: of 30 cradles and 30 columns clusters take 4 times the steps. So is what a
+/// spring holds that slips, for only its whole motion tells how far.
 inline bool MayPart(const Scenario& scenario) {
   constexpr auto kMany = 8;
   const auto moving = std::ranges::count(scenario.bodies, false, &Body::fixed);
-  const auto is_constant = [](const Load& load) {
-    return load.begin == 0 && load.end == std::numeric_limits<double>::infinity() &&
-           load.slope == 0 && load.amplitude == 0;
-  };
-  const auto is_apart = [&](const Contact& contact) { return InitialGap(scenario, contact) >= 0; };
-  return moving >= kMany && scenario.supports.empty() && scenario.drives.empty() &&
-         std::ranges::all_of(scenario.contacts, is_apart) &&
-         std::ranges::all_of(scenario.loads, is_constant) && scenario.solver.fixed_step == 0 &&
-         scenario.solver.update == UpdateRule::kNewtonCoupled;
+  const auto slips = [](const Support& support) { return !std::isinf(support.slip_force); };
+  return moving >= kMany && scenario.solver.fixed_step == 0 &&
+         scenario.solver.update == UpdateRule::kNewtonCoupled &&
+         std::ranges::none_of(scenario.supports, slips) && !IsHeldTogether(scenario);
 }
 
 }  // namespace contact

@@ -22,12 +22,7 @@ using testing::Column;
 using testing::Gas;
 using testing::Record;
 using testing::RunAndRecord;
-
-Record RunTogether(const Scenario& scenario) {
-  Record record;
-  record.outcome = RunWhole(scenario, record);
-  return record;
-}
+using testing::RunTogether;
 
 // Random scenarios of a kind; an unoptimized build solves one.
 constexpr unsigned kSeeds = testing::kOptimized ? 4 : 1;
@@ -372,17 +367,23 @@ TEST(Clusters, ARunThatIsStoppedSaysSo) {
   EXPECT_LT(outcome.time, 0.05);
 }
 
-TEST(Clusters, WhatIsSupportedOrShakenIsSolvedTogether) {
+TEST(Clusters, AFewBodiesAndSpringsThatSlipAreSolvedTogether) {
   Scenario s = Gas(20, 1e6, 1);
+  EXPECT_TRUE(MayPart(s));
+  s.supports = {{.body = 0, .stiffness = 1e3}};
+  EXPECT_TRUE(MayPart(s));
+  s.supports[0].slip_force = 1;
+  EXPECT_FALSE(MayPart(s));
+  EXPECT_FALSE(MayPart(Gas(4, 1e6, 1)));
+}
+
+TEST(Clusters, BodiesThatStayInTouchAreSolvedTogether) {
+  Scenario s = TouchingRow(20);
   EXPECT_TRUE(MayPart(s));
   s.loads = {{.body = 0, .constant = 1}};
   EXPECT_TRUE(MayPart(s));
-  s.loads[0].amplitude = 1;
+  s.loads[0].begin = 1e-3;
   EXPECT_FALSE(MayPart(s));
-  s.loads.clear();
-  s.supports = {{.body = 0, .stiffness = 1e3}};
-  EXPECT_FALSE(MayPart(s));
-  EXPECT_FALSE(MayPart(Gas(4, 1e6, 1)));
 }
 
 }  // namespace

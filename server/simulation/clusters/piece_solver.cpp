@@ -1,4 +1,4 @@
-#include "simulation/clusters/piece.h"
+#include "simulation/clusters/piece_solver.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,23 +23,17 @@ void Rename(ContactState* state, int contact) {
 
 }  // namespace
 
-PieceSolver::PieceSolver(const Scenario& scenario, Observer& observer, std::stop_token stop)
-    : scenario_(scenario),
-      observer_(observer),
-      stop_(std::move(stop)),
-      loads_(scenario.bodies.size()) {
-  for (std::size_t i = 0; i < scenario.loads.size(); ++i) {
-    loads_[At(scenario.loads[i].body)].push_back(static_cast<int>(i));
-  }
-}
+PieceSolver::PieceSolver(const World& world, Observer& observer, std::stop_token stop)
+    : world_(world), scenario_(world.scenario()), observer_(observer), stop_(std::move(stop)) {}
 
-// The bodies of the cast, and after them the fixed ones that they may touch.
+// The bodies of the cast, and after them the fixed ones that they may touch or hang on.
 Scenario PieceSolver::PartOf(const Cast& cast) const {
   Scenario part;
   part.solver = scenario_.solver;
   part.end_time = scenario_.end_time;
   for (const int b : cast.bodies) {
-    for (const int load : loads_[At(b)]) {
+    for (const int load : world_.LoadsOf(b)) {
+      if (scenario_.loads[At(load)].end <= cast.time) continue;
       part.loads.push_back(scenario_.loads[At(load)]);
       part.loads.back().body = static_cast<int>(part.bodies.size());
     }
@@ -54,6 +48,13 @@ Scenario PieceSolver::PartOf(const Cast& cast) const {
     if (known != fixed.end()) return place;
     fixed.push_back(body);
     part.bodies.push_back(scenario_.bodies[At(body)]);
+    part.bodies.back().position += world_.PlaceOf(body, cast.time).u;
+    part.bodies.back().velocity = world_.PlaceOf(body, cast.time).v;
+    for (const Drive& piece : world_.driven().PiecesOf(body)) {
+      if (piece.end <= cast.time) continue;
+      part.drives.push_back(piece);
+      part.drives.back().body = place;
+    }
     return place;
   };
   for (const int c : cast.contacts) {
@@ -61,6 +62,14 @@ Scenario PieceSolver::PartOf(const Cast& cast) const {
     contact.left = side(contact.left);
     contact.right = side(contact.right);
     part.contacts.push_back(std::move(contact));
+  }
+  for (const int b : cast.bodies) {
+    for (const int s : world_.SupportsOf(b)) {
+      Support support = scenario_.supports[At(s)];
+      support.body = side(support.body);
+      support.other = side(support.other);
+      part.supports.push_back(std::move(support));
+    }
   }
   return part;
 }
@@ -81,8 +90,9 @@ RunState PieceSolver::Begin(const Cast& cast, const Scenario& part, const RunSta
   }
   for (std::size_t i = cast.bodies.size(); i < part.bodies.size(); ++i) {
     now.state.positions.push_back(part.bodies[i].position);
-    now.state.velocities.push_back(0);
+    now.state.velocities.push_back(part.bodies[i].velocity);
   }
+  now.state.slips.resize(part.supports.size());
   now.missed = run.missed;
   now.solved_until = cast.outlook.solved_until;
   now.record_until = cast.outlook.record_until;
@@ -220,12 +230,13 @@ void PieceSolver::Close(const RunState& run, Work* work) const {
   piece->iterations = now.iterations;
   piece->growths = now.growths;
   piece->growths_no_progress = now.growths_no_progress;
-  piece->loss = now.state.contact_loss;
+  piece->loss = now.state.contact_loss + now.state.support_loss;
+  piece->work = now.state.load_work;
   piece->impulse = now.state.impulse;
-  for (const int body : end.bodies) {
-    for (const int load : loads_[At(body)]) {
-      piece->impulse -= scenario_.loads[At(load)].constant * (piece->ends() - piece->begins());
-    }
+  for (std::size_t i = 0; i < end.bodies.size(); ++i) {
+    const double steady = world_.SteadyForce(end.bodies[i]);
+    piece->work -= steady * (end.places[i].u - piece->start.places[i].u);
+    piece->impulse -= steady * (piece->ends() - piece->begins());
   }
   piece->warned = std::move(now.warned);
   piece->unproven = std::move(now.unproven);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "simulation/clusters/flight.h"
+#include "simulation/model/piece_rows.h"
+#include "simulation/model/scenario.h"
+
+namespace contact {
+
+/// Where the driven bodies of a scenario are, (M7).
+class DrivenPaths {
+ public:
+  /// The scenario must outlive the paths.
+  explicit DrivenPaths(const Scenario& scenario);
+
+  /// Whether a drive moves the body, which may be kNone.
+  bool Moves(int body) const { return body != kNone && !paths_[At(body)].pieces.empty(); }
+  /// All pieces of the motion of a body, in the order of time.
+  std::span<const Drive> PiecesOf(int body) const { return paths_[At(body)].pieces; }
+
+  /// Where a body is at an instant [s]. What no drive moves is at 0.
+  Place PlaceOf(int body, double instant) const;
+  /// ẍ of it then [m/s²].
+  double AccelerationOf(int body, double instant) const;
+  /// The next instant at which another piece begins [s]; kNever if none does.
+  double NextBreak(int body, double instant) const;
+  /// The largest ẍ · sign of a body between two instants of one piece [m/s²], or somewhat more.
+  double MostAcceleration(int body, double sign, double from, double to) const;
+
+ private:
+  struct Path {
+    std::span<const Drive> pieces;
+    std::vector<double> begins;  // u where each piece begins [m].
+  };
+  static std::size_t At(int body) { return static_cast<std::size_t>(body); }
+  const Drive* PieceAt(int body, double instant) const;
+
+  const PieceRows<Drive> rows_;
+  std::vector<Path> paths_;  // Of each body.
+};
+
+}  // namespace contact
