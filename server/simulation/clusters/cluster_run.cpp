@@ -233,7 +233,7 @@ std::shared_ptr<Piece> ClusterRun::Rewind(const Attempt& attempt) {
     }
   }
   for (const std::shared_ptr<Piece>& flight : cut) {
-    const std::shared_ptr<Piece> piece =
+    std::shared_ptr<Piece> piece =
         Solve({.time = flight->begins(), .bodies = flight->start.bodies}, attempt.time);
     if (EndOf(piece->pause) != Outcome::End::kFinished) return piece;
     Keep(piece, GroupsAfter(world_, *piece, blocks_));
@@ -249,7 +249,7 @@ std::shared_ptr<Piece> ClusterRun::Undo(const Piece& piece) {
       Undo(*last);
     }
   }
-  const std::shared_ptr<Piece> undone = pieces_.extract(piece.number).mapped();
+  std::shared_ptr<Piece> undone = pieces_.extract(piece.number).mapped();
   world_.Undo(*undone);
   agenda_.Note(undone->start.bodies);
   return undone;

@@ -22,30 +22,32 @@ DrivenPaths::DrivenPaths(const Scenario& scenario)
   }
 }
 
-const Drive* DrivenPaths::PieceAt(int body, double instant) const {
-  const auto begun = PieceRows<Drive>::Begun(paths_[At(body)].pieces, instant);
-  return begun.empty() ? nullptr : &begun.back();
+// One begins at 0.
+const Drive& DrivenPaths::PieceAt(int body, double instant) const {
+  const std::span<const Drive> pieces = paths_[At(body)].pieces;
+  const auto begun = PieceRows<Drive>::Begun(pieces, instant);
+  return begun.empty() ? pieces.front() : begun.back();
 }
 
 Place DrivenPaths::PlaceOf(int body, double instant) const {
   if (!Moves(body)) return {};
   const Path& path = paths_[At(body)];
-  const Drive* piece = PieceAt(body, instant);
-  const double begin = path.begins[static_cast<std::size_t>(piece - path.pieces.data())];
-  return {begin + Displacement(*piece, piece->begin, instant), MotionAt(*piece, instant).velocity};
+  const Drive& piece = PieceAt(body, instant);
+  const double begin = path.begins[static_cast<std::size_t>(&piece - path.pieces.data())];
+  return {begin + Displacement(piece, piece.begin, instant), MotionAt(piece, instant).velocity};
 }
 
 double DrivenPaths::AccelerationOf(int body, double instant) const {
-  return Moves(body) ? MotionAt(*PieceAt(body, instant), instant).acceleration : 0;
+  return Moves(body) ? MotionAt(PieceAt(body, instant), instant).acceleration : 0;
 }
 
 double DrivenPaths::NextBreak(int body, double instant) const {
-  return Moves(body) ? PieceAt(body, instant)->end : kNever;
+  return Moves(body) ? PieceAt(body, instant).end : kNever;
 }
 
 double DrivenPaths::MostAcceleration(int body, double sign, double from, double to) const {
   if (!Moves(body)) return 0;
-  const Drive& piece = *PieceAt(body, from);
+  const Drive& piece = PieceAt(body, from);
   const auto steady = [&](double t) {
     return sign * (piece.acceleration + piece.jerk * (t - piece.begin));
   };

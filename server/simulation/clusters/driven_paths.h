@@ -35,7 +35,7 @@ class DrivenPaths {
     std::vector<double> begins;  // u where each piece begins [m].
   };
   static std::size_t At(int body) { return static_cast<std::size_t>(body); }
-  const Drive* PieceAt(int body, double instant) const;
+  const Drive& PieceAt(int body, double instant) const;
 
   const PieceRows<Drive> rows_;
   std::vector<Path> paths_;  // Of each body.
