@@ -1,8 +1,10 @@
 #include "simulation/clusters/driven_paths.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "simulation/model/derived.h"
 
@@ -13,28 +15,59 @@ DrivenPaths::DrivenPaths(const Scenario& scenario)
     : rows_(scenario.drives), paths_(scenario.bodies.size()) {
   for (const std::span<const Drive> row : rows_.rows()) {
     Path& path = paths_[At(row.front().body)];
+    assert(path.pieces.empty());  // All pieces of a body follow one another.
     path.pieces = row;
     double u = 0;
     for (const Drive& piece : row) {
       path.begins.push_back(u);
       u += Displacement(piece, piece.begin, piece.end);
     }
+    FindBounds(scenario.end_time, &path);
+  }
+}
+
+// A piece is above its chord by at most h²/8 of the largest |ẍ|, and a sine by its amplitude above
+// its middle.
+void DrivenPaths::FindBounds(double end_time, Path* path) {
+  const std::size_t count = path->pieces.size();
+  path->most.assign(count, -kNever);
+  path->least.assign(count, kNever);
+  for (std::size_t i = count; i-- > 0;) {
+    if (i + 1 < count) path->most[i] = path->most[i + 1], path->least[i] = path->least[i + 1];
+    Drive steady = path->pieces[i];
+    const double swing = 2 * std::abs(std::exchange(steady.amplitude, 0));
+    const double h = std::min(steady.end, end_time) - steady.begin;
+    if (h < 0) continue;
+    const double bend =
+        std::max(std::abs(steady.acceleration), std::abs(steady.acceleration + steady.jerk * h));
+    const double begin = path->begins[i];
+    const double end = begin + Displacement(steady, steady.begin, steady.begin + h);
+    const double beside = swing + h * h / 8 * bend;
+    path->most[i] = std::max(path->most[i], std::max(begin, end) + beside);
+    path->least[i] = std::min(path->least[i], std::min(begin, end) - beside);
   }
 }
 
 // One begins at 0.
-const Drive& DrivenPaths::PieceAt(int body, double instant) const {
-  const std::span<const Drive> pieces = paths_[At(body)].pieces;
-  const auto begun = PieceRows<Drive>::Begun(pieces, instant);
-  return begun.empty() ? pieces.front() : begun.back();
+std::size_t DrivenPaths::PlaceAt(int body, double instant) const {
+  const auto begun = PieceRows<Drive>::Begun(paths_[At(body)].pieces, instant);
+  return begun.empty() ? 0 : begun.size() - 1;
 }
 
 Place DrivenPaths::PlaceOf(int body, double instant) const {
   if (!Moves(body)) return {};
+  const std::size_t place = PlaceAt(body, instant);
   const Path& path = paths_[At(body)];
-  const Drive& piece = PieceAt(body, instant);
-  const double begin = path.begins[static_cast<std::size_t>(&piece - path.pieces.data())];
-  return {begin + Displacement(piece, piece.begin, instant), MotionAt(piece, instant).velocity};
+  const Drive& piece = path.pieces[place];
+  return {path.begins[place] + Displacement(piece, piece.begin, instant),
+          MotionAt(piece, instant).velocity};
+}
+
+double DrivenPaths::MostDisplacement(int body, double sign, double from) const {
+  if (!Moves(body)) return 0;
+  const Path& path = paths_[At(body)];
+  const std::size_t place = PlaceAt(body, from);
+  return sign > 0 ? path.most[place] : -path.least[place];
 }
 
 double DrivenPaths::AccelerationOf(int body, double instant) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -26,16 +27,23 @@ class DrivenPaths {
   double AccelerationOf(int body, double instant) const;
   /// The next instant at which another piece begins [s]; kNever if none does.
   double NextBreak(int body, double instant) const;
+  /// The largest u · sign of a body from an instant to the end of the run [m], or somewhat more.
+  double MostDisplacement(int body, double sign, double from) const;
   /// The largest ẍ · sign of a body between two instants of one piece [m/s²], or somewhat more.
   double MostAcceleration(int body, double sign, double from, double to) const;
 
  private:
   struct Path {
     std::span<const Drive> pieces;
-    std::vector<double> begins;  // u where each piece begins [m].
+    std::vector<double> begins;       // u where each piece begins [m],
+    std::vector<double> most, least;  // and its bounds from there to the end of the run.
   };
   static std::size_t At(int body) { return static_cast<std::size_t>(body); }
-  const Drive& PieceAt(int body, double instant) const;
+  std::size_t PlaceAt(int body, double instant) const;
+  const Drive& PieceAt(int body, double instant) const {
+    return paths_[At(body)].pieces[PlaceAt(body, instant)];
+  }
+  static void FindBounds(double end_time, Path* path);
 
   const PieceRows<Drive> rows_;
   std::vector<Path> paths_;  // Of each body.

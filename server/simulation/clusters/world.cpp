@@ -140,12 +140,19 @@ double World::NextTouch(int contact) const {
   return from + TimeToTouch(gap, d.speed, Approach(contact));
 }
 
-// No touch comes before the one that the largest δ̈ to come would bring: from there on anew, until
-// the faces touch. Next to a touch this converges as Newton's method does.
+// No touch comes before a body is where what is driven goes at the farthest, and none before the
+// one that the largest δ̈ to come would bring: from there on anew, until the faces touch. Next to a
+// touch this converges as Newton's method does.
 double World::NextTouchOfDriven(int contact, double from) const {
   const Contact& c = scenario_.contacts[At(contact)];
   const double steady = Acceleration(c.left) - Acceleration(c.right);
+  const Place left = PlaceOf(c.left, from), right = PlaceOf(c.right, from);
+  const bool is_left = driven_.Moves(c.left);
+  const double ahead = is_left ? driven_.MostDisplacement(c.left, 1, from) - left.u
+                               : driven_.MostDisplacement(c.right, -1, from) + right.u;
+  const double apart = Gap(contact, left, right) - ahead;
   double time = from;
+  if (apart > 0) time += TimeToTouch(apart, is_left ? -right.v : left.v, steady);
   while (time < scenario_.end_time) {
     const double until = std::min(
         {driven_.NextBreak(c.left, time), driven_.NextBreak(c.right, time), scenario_.end_time});
