@@ -91,6 +91,48 @@ TEST(Rest, AReleaseWithoutALoadGivesBackWhatItsCollisionWouldHave) {
   EXPECT_LT(released->identity_residual, 1e-7);
 }
 
+// Round-off makes balls that lie on each other swing without end.
+TEST(Rest, CostsNothingOnceItSleeps) {
+  for (const int balls : {1, 3}) {
+    for (const double restitution : {0.3, 0.9}) {
+      Scenario s = testing::Column(balls, 1e7, restitution, 0.001);
+      s.end_time = 3;
+      const Record soon = RunAndRecord(s);
+      s.end_time = 300;
+      const Record late = RunAndRecord(s);
+      EXPECT_LT(late.outcome.steps, soon.outcome.steps + 500) << balls << " " << restitution;
+      EXPECT_LT(late.outcome.energy_residual, 1e-10);
+      EXPECT_LT(late.outcome.momentum_residual, 1e-10);
+      const Body& lowest = s.bodies.back();
+      const double depth = late.outcome.positions.back() - lowest.position - 0.001;
+      EXPECT_NEAR(depth / std::pow(balls * lowest.mass * 9.81 / 1e7, 2.0 / 3), 1, 1e-9);
+    }
+  }
+}
+
+// What wakes it does not depend on how long it slept.
+TEST(Rest, WakesAsTheSameHoweverLongItSlept) {
+  const auto wakes = [](double at) {
+    Scenario s = Placed(0.7, -20);
+    s.loads[1].begin = at;
+    s.end_time = at + 0.5;
+    return RunAndRecord(s);
+  };
+  const Record soon = wakes(1), late = wakes(1000);
+  EXPECT_LT(late.outcome.steps, soon.outcome.steps + 500);
+  ASSERT_EQ(late.cycles.size(), soon.cycles.size());
+  for (std::size_t i = 0; i < soon.cycles.size(); ++i) {
+    const Cycle &a = soon.cycles[i], &b = late.cycles[i];
+    EXPECT_EQ(b.status, a.status);
+    if (a.status == Cycle::Status::kConverged) {
+      EXPECT_NEAR(b.mu / a.mu, 1, 1e-6);
+    }
+    if (a.start_time > 0.9) {
+      EXPECT_NEAR(b.start_time - 1000, a.start_time - 1, 1e-9);
+    }
+  }
+}
+
 TEST(Rest, ALoadThatLiftsEndsItAtItsBeginAndIsAnAnswer) {
   const Record r = RunAndRecord(Placed(0.5, 20));
   EXPECT_TRUE(r.outcome.all_converged);

@@ -52,6 +52,9 @@ class Stepper {
   bool TurnsAtOnce() const;
   /// By what factor the step may be longer for an error of 1.
   double Growth(double error) const;
+  /// The scale of a contact that sleeps: of its swing round-off is left, which is no motion. Zero
+  /// of others.
+  MovingSystem::Scale ScaleOfSleep(const ActiveContact& active, double deformation) const;
   /// The largest lengths [m] and speeds [m/s], of contacts and of all bodies, in a step of h [s].
   struct Extent {
     double length, speed, body_length, body_speed;
