@@ -57,13 +57,16 @@ void SampleLog::End() {
 }
 
 void SampleLog::TakeExtremes() {
-  const bool misses = std::ranges::any_of(extremes_, [](const Extremes& e) { return e.turns > 1; });
+  const auto is_still = [](const Extremes& e) {
+    return e.turns > 1 && e.high.turn.value - e.low.turn.value <= kStill * e.scale;
+  };
+  const bool misses = std::ranges::any_of(
+      extremes_, [&](const Extremes& e) { return e.turns > 1 && !is_still(e); });
   std::vector<Extremes::Row> rows;
   for (Extremes& channel : extremes_) {
-    const int turns = std::exchange(channel.turns, 0);
-    const double range = channel.high.turn.value - channel.low.turn.value;
-    const bool is_still = turns > 1 && range <= kStill * channel.scale;
-    if (!misses || turns == 0 || is_still) continue;
+    const bool counts = misses && channel.turns > 0 && !is_still(channel);
+    channel.turns = 0;
+    if (!counts) continue;
     rows.push_back(channel.low);
     rows.push_back(channel.high);
   }
