@@ -121,6 +121,7 @@ TEST(Rest, WakesAsTheSameHoweverLongItSlept) {
   const Record soon = wakes(1), late = wakes(1000);
   EXPECT_LT(late.outcome.steps, soon.outcome.steps + 500);
   ASSERT_EQ(late.cycles.size(), soon.cycles.size());
+  ASSERT_GT(soon.cycles.back().start_time, 0.9);
   for (std::size_t i = 0; i < soon.cycles.size(); ++i) {
     const Cycle &a = soon.cycles[i], &b = late.cycles[i];
     EXPECT_EQ(b.status, a.status);

@@ -154,8 +154,7 @@ TEST(Turns, InClustersAreThoseOfTheWhole) {
     const Scenario s = testing::Gas(8, 1e8, seed);
     const Scenario turning = Turning(s, s.end_time / 3);
     const Record parts = RunAndRecord(turning);
-    Record whole;
-    whole.outcome = RunWhole(turning, whole);
+    const Record whole = testing::RunTogether(turning);
     ExpectLaterAndLater(parts);
     EXPECT_GT(parts.rows(), 4);
     ASSERT_EQ(parts.rows(), whole.rows()) << seed;

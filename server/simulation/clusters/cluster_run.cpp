@@ -28,8 +28,8 @@ constexpr std::int64_t kWasted = 2000;
 // How far those that wait look before they are solved, in times that their last piece has lasted.
 // 60 balls in gaps of 0.2 to 3 mm (k 1e6) take 2.5 million steps with 0, 0.95 with 3, 1.06 with 12.
 constexpr double kAhead = 3;
-// A flight within a piece, of bodies at rest, lasts at most this part of the run: so far behind may
-// be what is told, and so often is the rest looked at.
+// A flight within a piece, of bodies at rest, on springs or under changing loads, lasts at most
+// this part of the run: so far behind may be what is told, and so often are they looked at.
 constexpr double kLongest = 1.0 / 64;
 
 void Include(const std::vector<int>& more, std::vector<int>* in) {
@@ -152,7 +152,7 @@ bool ClusterRun::Gather(const std::vector<int>& more, Attempt* attempt) const {
     for (const World::Station& station : world_.StationsOf(body)) {
       const Piece* piece = station.piece.get();
       if (piece == nullptr || piece->ends() <= wider.time) continue;
-      if (piece->IsFlight() && piece->begins() < wider.time) {
+      if (piece->IsFlight() && piece->begins() < wider.time) {  // Rewind cuts it.
         take(piece->start.bodies);
         continue;
       }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulation/clusters/flight.h"
+#include "simulation/model/index.h"
 #include "simulation/model/piece_rows.h"
 #include "simulation/model/scenario.h"
 
@@ -18,8 +19,11 @@ class DrivenPaths {
 
   /// Whether a drive moves the body, which may be kNone.
   bool Moves(int body) const { return body != kNone && !paths_[At(body)].pieces.empty(); }
-  /// All pieces of the motion of a body, in the order of time.
-  std::span<const Drive> PiecesOf(int body) const { return paths_[At(body)].pieces; }
+  /// The pieces of the motion of a body from an instant on, in the order of time.
+  std::span<const Drive> PiecesFrom(int body, double instant) const {
+    return Moves(body) ? paths_[At(body)].pieces.subspan(PlaceAt(body, instant))
+                       : std::span<const Drive>();
+  }
 
   /// Where a body is at an instant [s]. What no drive moves is at 0.
   Place PlaceOf(int body, double instant) const;
@@ -38,7 +42,6 @@ class DrivenPaths {
     std::vector<double> begins;       // u where each piece begins [m],
     std::vector<double> most, least;  // and its bounds from there to the end of the run.
   };
-  static std::size_t At(int body) { return static_cast<std::size_t>(body); }
   std::size_t PlaceAt(int body, double instant) const;
   const Drive& PieceAt(int body, double instant) const {
     return paths_[At(body)].pieces[PlaceAt(body, instant)];

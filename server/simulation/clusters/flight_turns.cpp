@@ -44,7 +44,8 @@ void AddZero(const Rate& rate, double from, double to, std::vector<double>* zero
 }
 
 // In a quarter of a period, or of a polynomial of the third degree up to its point of inflection,
-// ẋ and ẍ change their signs once at most.
+// ẋ and ẍ change their signs once at most; where a polynomial and a sine add up two that are
+// nearer may be missed.
 void AddOfDrive(const World& world, const Drive& drive, double from, double to,
                 std::vector<Turn>* turns) {
   std::vector<double> still, even;
@@ -73,7 +74,8 @@ void AddOfDrive(const World& world, const Drive& drive, double from, double to,
 void AddFlightTurns(const World& world, double from, double to, std::vector<Turn>* turns) {
   for (int body = 0; body < std::ssize(world.scenario().bodies); ++body) {
     if (world.IsMoved(body)) AddOfFlights(world, body, from, to, turns);
-    for (const Drive& drive : world.driven().PiecesOf(body)) {
+    for (const Drive& drive : world.driven().PiecesFrom(body, from)) {
+      if (drive.begin >= to) break;
       AddOfDrive(world, drive, std::max(from, drive.begin), std::min(to, drive.end), turns);
     }
   }

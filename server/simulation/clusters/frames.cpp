@@ -21,11 +21,7 @@ Frames::Frames(const World& world, Observer& observer, std::stop_token stop)
       velocities_(scenario_.bodies.size()),
       accelerations_(scenario_.bodies.size()),
       forces_(scenario_.contacts.size()),
-      yields_(scenario_.contacts.size()) {
-  for (const Load& load : scenario_.loads) {
-    if (!IsSteady(load)) changing_.push_back(load);
-  }
-}
+      yields_(scenario_.contacts.size()) {}
 
 void Frames::RecordUntil(double instant, const Pieces& pieces, std::int64_t steps) {
   if (scenario_.sample_interval == 0) return;
@@ -79,8 +75,9 @@ void Frames::FindAccelerations(double instant) {
   const auto push = [&](int body, double force) {
     if (world_.IsMoved(body)) accelerations_[At(body)] += force / scenario_.bodies[At(body)].mass;
   };
-  for (const Load& load : changing_) {
-    if (load.begin <= instant && instant < load.end) push(load.body, LoadForce(load, instant));
+  for (const std::span<const Load> row : equations_.loads().rows()) {
+    const Load* load = PieceRows<Load>::At(row, instant);
+    if (load != nullptr && !IsSteady(*load)) push(load->body, LoadForce(*load, instant));
   }
   for (const Support& support : scenario_.supports) {
     const double force = SupportForce(support);
@@ -178,7 +175,6 @@ Exchanged Frames::ExchangedIn(const Piece& piece, double instant) const {
   if (trace.exchanged.empty()) return {};
   if (instant >= piece.ends()) return {trace.exchanged.back().dissipated, piece.work};
   const std::size_t step = trace.StepAt(instant);
-  const auto first = static_cast<std::ptrdiff_t>(step * trace.bodies);
   double steady = 0;
   own_.clear();
   for (std::size_t b = 0; b < trace.bodies; ++b) {
@@ -192,7 +188,7 @@ Exchanged Frames::ExchangedIn(const Piece& piece, double instant) const {
     const Trace::Exchange before = step == 0 ? Trace::Exchange{} : trace.exchanged[step - 1];
     dissipated = before.dissipated + work - before.work - EnergyOf(piece, own_, instant);
     for (std::size_t b = 0; b < trace.bodies; ++b) {
-      own_[b] = trace.ends[static_cast<std::size_t>(first) + b].from;
+      own_[b] = trace.ends[step * trace.bodies + b].from;
     }
     dissipated += EnergyOf(piece, own_, trace.steps[step].start);
   }

@@ -9,7 +9,6 @@
 #include "simulation/clusters/world.h"
 #include "simulation/course/sample_log.h"
 #include "simulation/episode/run_state.h"
-#include "simulation/model/index.h"
 #include "simulation/model/observer.h"
 #include "simulation/motion/equations.h"
 
@@ -72,7 +71,6 @@ class Frames {
   const World& world_;
   const Scenario& scenario_;
   const Equations equations_;
-  std::vector<Load> changing_;  // Loads that are not steady.
   SampleLog log_;
   double until_ = 0;  // All up to here are taken [s].
   Exchanged forgotten_;

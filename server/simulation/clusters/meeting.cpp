@@ -178,13 +178,13 @@ std::optional<double> FirstOverlap(const World& world, int contact, const Path& 
 std::vector<Waiting> GroupsAtStart(const World& world, const Blocks& blocks) {
   std::vector<int> bodies;
   for (int body = 0; body < std::ssize(world.scenario().bodies); ++body) {
-    if (!world.scenario().bodies[At(body)].fixed) bodies.push_back(body);
+    if (world.IsMoved(body)) bodies.push_back(body);
   }
   Gatherer gatherer(bodies);
   for (int c = 0; c < std::ssize(world.contacts()); ++c) {
     const std::vector<int>& sides = world.Sides(c);
-    if (!sides.empty() && StartsPressed(world.contacts()[At(c)]))
-      gatherer.Join(sides.front(), sides.back());
+    const bool pressed = !sides.empty() && StartsPressed(world.contacts()[At(c)]);
+    if (pressed) gatherer.Join(sides.front(), sides.back());
   }
   gatherer.AddWhatNeverFlies(world, blocks, 0);
   return gatherer.Groups();

@@ -50,8 +50,7 @@ Scenario PieceSolver::PartOf(const Cast& cast) const {
     part.bodies.push_back(scenario_.bodies[At(body)]);
     part.bodies.back().position += world_.PlaceOf(body, cast.time).u;
     part.bodies.back().velocity = world_.PlaceOf(body, cast.time).v;
-    for (const Drive& piece : world_.driven().PiecesOf(body)) {
-      if (piece.end <= cast.time) continue;
+    for (const Drive& piece : world_.driven().PiecesFrom(body, cast.time)) {
       part.drives.push_back(piece);
       part.drives.back().body = place;
     }

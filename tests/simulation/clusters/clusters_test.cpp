@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <ctime>
-#include <map>
 #include <random>
 #include <stop_token>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "simulation/clusters/both_ways.h"
 #include "simulation/model/derived.h"
 #include "testing/cases.h"
 
@@ -19,6 +18,8 @@ namespace contact {
 namespace {
 
 using testing::Column;
+using testing::ExpectClosedBalances;
+using testing::ExpectSame;
 using testing::Gas;
 using testing::Record;
 using testing::RunAndRecord;
@@ -26,39 +27,6 @@ using testing::RunTogether;
 
 // Random scenarios of a kind; an unoptimized build solves one.
 constexpr unsigned kSeeds = testing::kOptimized ? 4 : 1;
-
-using Rows = std::map<std::pair<int, int>, Cycle>;
-
-Rows RowsOf(const Record& record) {
-  Rows rows;
-  for (const Cycle& cycle : record.cycles) rows[{cycle.contact, cycle.number}] = cycle;
-  return rows;
-}
-
-// Rows that the end cuts have a μ by what comes after it, of which a part knows less.
-void ExpectSame(const Record& parts, const Record& whole, double time, double mu) {
-  const Rows all = RowsOf(whole), rows = RowsOf(parts);
-  ASSERT_EQ(rows.size(), all.size());
-  for (const auto& [name, a] : all) {
-    const auto found = rows.find(name);
-    ASSERT_NE(found, rows.end()) << name.first << " " << name.second;
-    const Cycle& b = found->second;
-    EXPECT_EQ(b.status, a.status) << name.first << " " << name.second;
-    EXPECT_EQ(b.group, a.group);
-    EXPECT_NEAR(b.start_time, a.start_time, time);
-    EXPECT_NEAR(b.end_time, a.end_time, time);
-    if (a.status == Cycle::Status::kConverged) {
-      EXPECT_NEAR(b.mu / a.mu, 1, mu);
-    }
-  }
-}
-
-void ExpectClosedBalances(const Outcome& outcome) {
-  EXPECT_EQ(outcome.end, Outcome::End::kFinished) << outcome.message;
-  EXPECT_LT(outcome.energy_residual, 1e-9);
-  EXPECT_LT(outcome.momentum_residual, 1e-9);
-  EXPECT_LT(outcome.worst_identity_residual, 1e-8);
-}
 
 TEST(Clusters, AGasMovesAsAllTogetherDo) {
   for (const double stiffness : {1e6, 1e9}) {
@@ -111,21 +79,9 @@ Scenario RandomGas(unsigned seed) {
 // groups.
 TEST(Clusters, RandomGasesKeepTheirBalancesAndTheirCycles) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes";
-  int finished = 0, same = 0;
-  for (unsigned seed = 1; seed <= 40; ++seed) {
-    const Scenario s = RandomGas(seed);
-    const Record parts = RunAndRecord(s), whole = RunTogether(s);
-    ASSERT_NE(parts.outcome.end, Outcome::End::kNumeric) << seed << parts.outcome.message;
-    if (parts.outcome.end != Outcome::End::kFinished) continue;
-    EXPECT_LT(parts.outcome.energy_residual, 1e-9) << seed;
-    EXPECT_LT(parts.outcome.momentum_residual, 1e-9) << seed;
-    if (whole.outcome.end != Outcome::End::kFinished) continue;
-    EXPECT_GE(parts.outcome.all_converged, whole.outcome.all_converged) << seed;
-    ++finished;
-    same += parts.cycles.size() == whole.cycles.size();
-  }
-  EXPECT_GE(finished, 30);
-  EXPECT_GE(same, finished - 3);
+  const testing::Both both = testing::RunBothWays(RandomGas, 40, 1e-9);
+  EXPECT_GE(both.finished, 30);
+  EXPECT_GE(both.same, both.finished - 3);
 }
 
 // A fixed ball hangs in the air, whatever pulls at it.

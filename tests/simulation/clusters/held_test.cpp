@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numbers>
 #include <random>
-#include <string>
 
-#include "simulation/clusters/driven_paths.h"
+#include "simulation/clusters/both_ways.h"
 #include "simulation/model/derived.h"
 #include "testing/cases.h"
 
@@ -41,28 +39,10 @@ Scenario ShakenGas(int balls, double stiffness, unsigned seed) {
 void ExpectAsTogether(const Scenario& s, double time, double mu) {
   ASSERT_TRUE(MayPart(s));
   const Record parts = RunAndRecord(s), whole = RunTogether(s);
-  for (const Record* run : {&parts, &whole}) {
-    ASSERT_EQ(run->outcome.end, Outcome::End::kFinished) << run->outcome.message;
-    EXPECT_LT(run->outcome.energy_residual, 1e-9);
-    EXPECT_LT(run->outcome.momentum_residual, 1e-9);
-    EXPECT_LT(run->outcome.worst_identity_residual, 1e-7);
-  }
-  std::vector<Cycle> rows = parts.cycles, all = whole.cycles;
-  for (std::vector<Cycle>* cycles : {&rows, &all}) {
-    std::ranges::sort(*cycles, {}, [](const Cycle& c) { return std::pair(c.contact, c.number); });
-  }
-  ASSERT_EQ(rows.size(), all.size());
-  ASSERT_GT(rows.size(), 5U);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string where = std::to_string(all[i].contact) + " " + std::to_string(all[i].number);
-    EXPECT_EQ(rows[i].contact, all[i].contact) << where;
-    EXPECT_EQ(rows[i].status, all[i].status) << where;
-    EXPECT_NEAR(rows[i].start_time, all[i].start_time, time) << where;
-    EXPECT_NEAR(rows[i].end_time, all[i].end_time, time) << where;
-    if (all[i].status == Cycle::Status::kConverged) {
-      EXPECT_NEAR(rows[i].mu / all[i].mu, 1, mu) << where;
-    }
-  }
+  testing::ExpectClosedBalances(parts.outcome);
+  testing::ExpectClosedBalances(whole.outcome);
+  ASSERT_GT(whole.cycles.size(), 5U);
+  testing::ExpectSame(parts, whole, time, mu);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     EXPECT_NEAR(parts.outcome.positions[b], whole.outcome.positions[b], 10 * time) << b;
   }
@@ -196,21 +176,9 @@ Scenario RandomlyHeld(unsigned seed) {
 // The same cycles but in a few, where a tail is chaotic or two sets of μ solve the same groups.
 TEST(HeldClusters, RandomOnesKeepTheirBalancesAndTheirCycles) {
   if (!testing::kOptimized) GTEST_SKIP() << "takes minutes";
-  int finished = 0, same = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
-    const Scenario s = RandomlyHeld(seed);
-    const Record parts = RunAndRecord(s), whole = RunTogether(s);
-    ASSERT_NE(parts.outcome.end, Outcome::End::kNumeric) << seed << parts.outcome.message;
-    if (parts.outcome.end != Outcome::End::kFinished) continue;
-    EXPECT_LT(parts.outcome.energy_residual, 1e-8) << seed;
-    EXPECT_LT(parts.outcome.momentum_residual, 1e-9) << seed;
-    if (whole.outcome.end != Outcome::End::kFinished) continue;
-    EXPECT_GE(parts.outcome.all_converged, whole.outcome.all_converged) << seed;
-    ++finished;
-    same += parts.cycles.size() == whole.cycles.size();
-  }
-  EXPECT_GE(finished, 55);
-  EXPECT_GE(same, finished - 4);
+  const testing::Both both = testing::RunBothWays(RandomlyHeld, 60, 1e-8);
+  EXPECT_GE(both.finished, 55);
+  EXPECT_GE(both.same, both.finished - 4);
 }
 
 }  // namespace
