@@ -10,6 +10,7 @@
 
 #include "simulation/clusters/both_ways.h"
 #include "simulation/model/derived.h"
+#include "simulation/motion/state.h"
 #include "testing/cases.h"
 
 namespace contact {
